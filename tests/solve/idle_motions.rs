@@ -197,6 +197,58 @@ fn a_solution_that_is_not_far_stays_where_it_is() {
     }
 }
 
+/// A gap that closes lets a body fall as far as it is wide, and this is not far: the solution stays where it is. It is turned
+/// about its only point, by as much again. No unit of a tangent, here smaller by 2^30, is that of the gap.
+#[test]
+fn a_gap_lets_a_body_fall_no_further_than_it_must() {
+    let rng = &mut Rng::with_seed(5);
+    for (dim, length) in [2, 3].into_iter().flat_map(|dim| (3..=5).map(move |length| (dim, length)))
+    {
+        for held in 0..(dim - 1) * length {
+            let mut case = pressed(rng, dim, length, &[held]).0;
+            let n = case.size();
+            let is_tangential = |i: usize| !(i % n).is_multiple_of(dim);
+            let entries = case.k.iter_mut().enumerate();
+            entries.filter(|(i, _)| is_tangential(*i)).for_each(|(_, k)| *k *= 2_f64.powi(-30));
+            case.f = (0..n).map(|i| f64::from(u8::from(i == dim * held))).collect();
+            case.gap[held] = 2_f64.powi(22);
+            let places = places(dim, length);
+            let fallen = normals(dim, &places, |_| case.gap[held]);
+            let start = moved(&fallen, case.gap[held], &idle(dim, &places, &[held])[0]);
+            for method in METHODS {
+                let solution = from(&case, (method, TOLERANCE), &start);
+                assert_eq!(solution.d, start, "{held}, {method:?}\n{case:?}");
+                assert!(!solution.remarks.held_by_rounding, "{held}, {method:?}\n{case:?}");
+            }
+        }
+    }
+}
+
+/// A body in two parts that hold each other, `[[1, -1], [-1, 1 + e]]`, under the load 1: it moves by `1 / e`, by the energy
+/// `1 / e` of `e` alone. Rounding of a condensed matrix of these units may hold it so up to 100 times 3e-12 of
+/// `(2 + e) / e²`: `e` up to 6e-10. In units of length and force that are powers of two the same is said.
+#[test]
+fn the_remark_tells_what_rounding_may_hold() {
+    for (exponent, expected) in [(-37, true), (-34, true), (-31, true), (-30, false), (-24, false)]
+    {
+        let e = 2_f64.powi(exponent);
+        for (length, force) in [(0, 0), (20, 0), (-20, 0), (0, 20), (0, -20)] {
+            let [length, force] = [length, force].map(|power| 2_f64.powi(power));
+            let mut k = vec![0.0; 16];
+            (k[0], k[2], k[8], k[10]) = (1.0, -1.0, -1.0, 1.0 + e);
+            (k[5], k[15]) = (1.0, 1.0);
+            k.iter_mut().for_each(|k| *k *= force / length);
+            let (f, gap) = (vec![0.0, 0.0, force, 0.0], vec![f64::INFINITY; 2]);
+            let case = Case { dim: 2, pairs: 2, k, f, gap, law: frictionless(2), slip: None };
+            let start = [length / e, 0.0, length / e, 0.0];
+            for method in METHODS {
+                let told = from(&case, (method, TOLERANCE), &start).remarks.held_by_rounding;
+                assert_eq!(told, expected, "2^{exponent}, {length}, {force}, {method:?}");
+            }
+        }
+    }
+}
+
 /// The motions that are left to a body are those that move no pair which touches its obstacle along its normal, pressed or not:
 /// as many as the normals of these leave of its rigid motions.
 #[test]

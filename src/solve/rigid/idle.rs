@@ -80,10 +80,8 @@ pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> b
     if !is_far(contact, d, force, |i| units[i]) {
         return false;
     }
-    let largest = norm_inf(d);
-    let motion: Vec<f64> = d.iter().map(|d| d / largest).collect();
-    let of_units: f64 = motion.iter().zip(&units).map(|(d, unit)| unit * d * d).sum();
-    dot(&motion, &problem.internal_force(&motion)) <= HELD * CONDENSATION * of_units
+    let of_units: f64 = d.iter().zip(&units).map(|(d, unit)| unit * d * d).sum();
+    dot(d, &problem.internal_force(d)) <= HELD * CONDENSATION * of_units
 }
 
 /// True if a frictionless solution may move by some motion without internal force: one that does not move the
