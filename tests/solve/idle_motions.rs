@@ -153,8 +153,8 @@ fn a_far_start_ends_at_the_least_of_its_solutions() {
 }
 
 /// A beam on its first pair, turned far off it. Its last pair meets its obstacle on the way to the least solution, and stops the
-/// way there; or the obstacle is behind that solution, and stops nothing. The rounding of a far start, 1e-8, is below the
-/// tolerance: a pair that it brings beyond its obstacle would be no solution otherwise, and the start would stay.
+/// way there; or the obstacle is behind that solution, and stops nothing. The tolerance is above the rounding of a far start,
+/// 1e-8. With one below, a pair that rounding brings beyond its obstacle would be no solution, and the start stays.
 #[test]
 fn an_obstacle_stops_the_way_to_the_least_solution() {
     let rng = &mut Rng::with_seed(2);
@@ -170,6 +170,7 @@ fn an_obstacle_stops_the_way_to_the_least_solution() {
             let stopped = (case.gap[length - 1] - least[last]).min(0.0) / motion[last];
             let expected = moved(&least, stopped, motion);
             for method in METHODS {
+                from(&case, (method, TOLERANCE), &start);
                 let solution = from(&case, (method, 1e-6), &start);
                 let off = largest(&difference(&solution.d, &expected));
                 assert!(off <= rest, "seed {seed}, {behind}, {method:?}: {off:e}\n{case:?}");
