@@ -22,11 +22,10 @@ pub use load_case::LoadCase;
 
 use crate::error::{Argument, Error};
 use crate::file;
-use crate::linalg::elimination::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactData, ContactProblem, Dependence, DependentRows, Relation, symmetric_matrix,
+    ContactData, ContactProblem, Dependence, DependentRows, Relation, Remembered, symmetric_matrix,
 };
 use crate::reduce::{
     ContactPairs, Control, Reduction, SparseMatrix, SparseReduction, driven_motion,

@@ -1,8 +1,6 @@
 //! Elimination of some components of a symmetric positive definite system, by faer on the calling
 //! thread.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
 use faer::linalg::triangular_solve;
 use faer::{Mat, MatMut, MatRef, Par};
 
@@ -21,23 +19,6 @@ pub struct Elimination {
     lower: Mat<f64>,
     half: Mat<f64>,
     schur: Vec<f64>,
-}
-
-/// The last elimination of a matrix that many problems share, if there was one. It depends on the matrix and on
-/// the components alone.
-#[derive(Debug, Default)]
-pub struct Remembered(Mutex<Option<Arc<Elimination>>>);
-
-impl Remembered {
-    /// The elimination that was kept last.
-    pub fn get(&self) -> Option<Arc<Elimination>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// Keeps `elimination`, or nothing.
-    pub fn keep(&self, elimination: Option<Arc<Elimination>>) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = elimination;
-    }
 }
 
 impl Elimination {

@@ -2,8 +2,8 @@
 
 use super::{LoadCase, Model};
 use crate::error::{Error, Limit};
-use crate::linalg::elimination::Remembered;
 use crate::monitor::{Monitor, Progress, ProgressFn, Stop};
+use crate::problem::Remembered;
 use crate::settings::Settings;
 use crate::solve::{CasePast, Solution, Status};
 use crate::workers::{SingleThread, Workers};

@@ -1,5 +1,6 @@
 //! The linear complementarity problem with lower bounds, which contact without friction is.
 
+use super::remembered::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm};
@@ -19,6 +20,8 @@ pub struct BoundedLcp<'a> {
     pub lower: &'a [f64],
     /// `true` if `M` is symmetric, as far as rounding goes.
     pub symmetric: bool,
+    /// What problems with this matrix leave for each other; `None`: this one stands alone.
+    pub remembered: Option<&'a Remembered>,
 }
 
 impl BoundedLcp<'_> {

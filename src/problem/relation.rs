@@ -9,7 +9,7 @@
 //! The certificate measures a pair `(d, F)` on any form. In the stiffness form `d` determines `F`; in
 //! others it does not, so that a candidate carries both.
 
-use crate::linalg::elimination::Remembered;
+use super::remembered::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm;
 

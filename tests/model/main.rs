@@ -7,3 +7,4 @@ mod cases;
 mod histories;
 mod limits;
 mod series;
+mod warm_steps;

@@ -10,8 +10,8 @@
 
 use std::cell::Cell;
 
-use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
+use crate::law::{Linearised, Piece};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
@@ -53,6 +53,7 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
         q: contact.load_with_tension(),
         lower: &lower,
         symmetric: true,
+        remembered: problem.remembered(),
     };
     let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
     let start = call.start.map(opposite);
@@ -93,6 +94,7 @@ pub fn lcp(
         q: lcp.q(),
         lower: &zero,
         symmetric: is_symmetric(&lcp.matrix()),
+        remembered: None,
     };
     let is_accurate = |x: &[f64]| lcp.measure(x, magnitudes).0 <= tolerance;
     solve(&bounded, tolerance, None, most, &is_accurate, monitor)
@@ -106,13 +108,16 @@ fn solve(
     is_accurate: &dyn Fn(&[f64]) -> bool,
     monitor: &mut Monitor<'_>,
 ) -> Pivoted {
-    let mut basic: Vec<bool> = match &start {
-        Some(x) => active_set(lcp, x, &lcp.w(x)),
-        None => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
+    let equations = Equations::of_lcp(lcp);
+    let mut systems = Systems::of(&equations);
+    let before = systems.pieces_of(start.as_deref());
+    let mut basic: Vec<bool> = match (before, &start) {
+        (Some(pieces), _) => pieces.iter().map(|piece| !piece.closed).collect(),
+        (None, Some(x)) => active_set(lcp, x, &lcp.w(x)),
+        (None, None) => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
     };
     let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
-    let equations = Equations::of_lcp(lcp);
-    let mut iterate = Iterate { lcp, systems: Systems::of(&equations), w: lcp.w(&x), x };
+    let mut iterate = Iterate { lcp, systems, w: lcp.w(&x), x };
     let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
@@ -146,6 +151,8 @@ fn solve(
     let (_, x, w) = best;
     let (factorisations, orientation) =
         (iterate.systems.factorisations, iterate.systems.orientation());
+    let of_variable = |&basic: &bool| Piece { closed: !basic, ..Piece::OPEN };
+    iterate.systems.leave(|| (basic.iter().map(of_variable).collect(), x.clone()));
     Pivoted { x, w, ending, factorisations, orientation }
 }
 

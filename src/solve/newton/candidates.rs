@@ -19,6 +19,7 @@ use super::start::swept;
 use crate::law::Vector;
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
+use crate::problem::Remembered;
 use crate::solve::part::{ReducedProblem, closed_with_margin};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
@@ -38,12 +39,8 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let Call { contact, settings, start } = *call;
     let whole = Equations::of(contact);
     let remembered = contact.problem().remembered();
-    // Nothing is kept while others may need the memory, and nothing of a problem that is not solved.
-    let before = remembered.and_then(|remembered| {
-        let before = remembered.get();
-        remembered.keep(None);
-        before
-    });
+    // Nothing is left while others may need the memory, and nothing of a problem that is not solved.
+    let before = remembered.and_then(Remembered::take::<Arc<Elimination>>);
     let mut search =
         Search { tolerance: settings.tolerance, core, is_series: remembered.is_some() };
     let begun = before.and_then(|before| begun(&whole, before, start, monitor));
@@ -62,10 +59,10 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         found = Some(Found { systems: spent + alone.systems, ..alone });
     }
     let found = found.expect("the problem alone has ended");
-    if let Some(remembered) = remembered
+    if let (Some(remembered), Some(elimination)) = (remembered, found.elimination)
         && matches!(found.ending, Ending::Done | Ending::Stopped(_))
     {
-        remembered.keep(found.elimination);
+        remembered.leave(elimination);
     }
     let mut candidate =
         Candidate::new(found.d, found.force, found.ending, Effort::of_systems(found.systems));

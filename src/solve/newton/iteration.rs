@@ -7,6 +7,7 @@
 //! pairs, where Newton's step alone moves it by one.
 
 use super::descent::{self, Goal, NormalMap, PATIENCE};
+use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, Point, Systems};
@@ -65,6 +66,27 @@ pub fn solve(
     Dense::of(equations).descend(y, (tolerance, least_systems), monitor)
 }
 
+/// Solves the equations of a whole problem in the plane from displacements: from the solution on the pieces of the problem
+/// before with the same matrix, if they are its solution, and from sweeps. `None`: the sweeps lead beyond the largest
+/// number.
+pub fn solve_in_plane(
+    equations: &Equations<'_>,
+    start: Option<&[f64]>,
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Option<Ended> {
+    let mut dense = Dense::of(equations);
+    let before = dense.systems.pieces_of(start);
+    let again = before.and_then(|pieces| dense.on_pieces(pieces, monitor).ok());
+    if let Some(point) = again.as_ref().filter(|point| point.pieces == dense.pieces) {
+        return Some(dense.descend(point.y.clone(), (tolerance, 0), monitor));
+    }
+    let start = again.as_ref().map(|point| &point.d[..]).or(start);
+    let y = swept(equations, start, monitor);
+    let is_finite = y.iter().flatten().all(|y| y.is_finite());
+    is_finite.then(|| dense.descend(y, (tolerance, 1), monitor))
+}
+
 /// Solves the equations from the solution on given pieces of the plane, whatever the law says to it. `Err`: that system
 /// is singular, or there is no time for it.
 pub fn from_pieces(
@@ -73,13 +95,9 @@ pub fn from_pieces(
     tolerance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Ending> {
-    let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
-    let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
-    let y: Vec<Vector> = equations.laws.iter().zip(pieces).map(inside).collect();
-    monitor.step()?;
     let mut dense = Dense::of(equations);
-    let step = dense.system(&Point::on(equations, pieces.to_vec(), y.clone()), monitor)?;
-    Ok(dense.descend(moved(&y, &step, 1.0), (tolerance, 0), monitor))
+    let point = dense.on_pieces(pieces.to_vec(), monitor)?;
+    Ok(dense.descend(point.y, (tolerance, 0), monitor))
 }
 
 /// Equations whose systems are factorised.
@@ -111,6 +129,21 @@ impl<'e> Dense<'e> {
         }
     }
 
+    /// The solution on given pieces of the plane. `Err`: that system is singular, or there is no time for it.
+    fn on_pieces(
+        &mut self,
+        pieces: Vec<Piece>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Point, Ending> {
+        let equations = self.equations;
+        let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
+        let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
+        let y: Vec<Vector> = equations.laws.iter().zip(&pieces).map(inside).collect();
+        monitor.step()?;
+        let step = self.system(&Point::on(equations, pieces, y.clone()), monitor)?;
+        Ok(Point::new(equations, moved(&y, &step, 1.0)))
+    }
+
     /// Goes on from the coordinates `y` to a tolerance, with so many systems at least.
     fn descend(
         mut self,
@@ -135,6 +168,8 @@ impl<'e> Dense<'e> {
             outcome = descent::solve(&mut self, outcome.point, goal, monitor);
         }
         let (systems, orientation) = (self.systems.factorisations, self.orientation);
+        let Dense { systems: left, pieces, .. } = self;
+        left.leave(|| (pieces, outcome.point.d.clone()));
         Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
     }
 

@@ -28,11 +28,11 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
     if contact.dim() == 2 {
         let equations = Equations::of(contact);
-        let y = start::swept(&equations, call.start, monitor);
-        if !y.iter().flatten().all(|y| y.is_finite()) {
-            return Candidate::without_displacements(contact, candidates::OVERFLOW);
-        }
-        return iteration::solve(&equations, y, settings.tolerance, monitor).into_candidate();
+        let ended = iteration::solve_in_plane(&equations, call.start, settings.tolerance, monitor);
+        return match ended {
+            Some(ended) => ended.into_candidate(),
+            None => Candidate::without_displacements(contact, candidates::OVERFLOW),
+        };
     }
     on_candidates(call, monitor, &mut |equations, y, monitor| {
         iteration::solve(equations, y, settings.tolerance, monitor)

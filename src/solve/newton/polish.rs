@@ -177,7 +177,7 @@ impl Steps {
 /// Newton's steps, whose factor is kept.
 struct Newton<'e, 'm> {
     equations: &'e Equations<'e>,
-    kept: Option<CachedFactor<'e>>,
+    kept: Option<CachedFactor>,
     /// True if the last step came near enough for its factor to serve again.
     is_good: bool,
     factorisations: u64,
@@ -187,8 +187,8 @@ struct Newton<'e, 'm> {
 }
 
 /// A factor, with the pieces at which it was made.
-struct CachedFactor<'e> {
-    system: System<'e>,
+struct CachedFactor {
+    system: System,
     pieces: Vec<Piece>,
 }
 
@@ -230,13 +230,9 @@ impl<'e, 'm> Newton<'e, 'm> {
     /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it. It serves on its pieces
     /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives have changed by rounding only: in
     /// the plane they do not change.
-    fn factor(
-        &mut self,
-        pieces: Vec<Piece>,
-        pairs: Vec<Linearised>,
-    ) -> Option<&mut CachedFactor<'e>> {
+    fn factor(&mut self, pieces: Vec<Piece>, pairs: Vec<Linearised>) -> Option<&mut CachedFactor> {
         let (equations, is_good) = (self.equations, self.is_good);
-        let serves = |kept: &CachedFactor<'_>| {
+        let serves = |kept: &CachedFactor| {
             kept.pieces == pieces && (is_good || are_same(kept.system.pairs(), &pairs))
         };
         if !self.kept.as_ref().is_some_and(serves) {

@@ -87,6 +87,7 @@ impl<'p> NormalProblem<'p> {
             q: &self.q,
             lower: &self.lower,
             symmetric: true,
+            remembered: None,
         }
     }
 

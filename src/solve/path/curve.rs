@@ -64,8 +64,8 @@ pub struct Curve<'h> {
 }
 
 /// The system at a place, with the unit tangent of the curve.
-struct Local<'h> {
-    system: System<'h>,
+struct Local {
+    system: System,
     tangent: PathPoint,
 }
 
@@ -132,7 +132,7 @@ impl<'h> Curve<'h> {
     /// piece.
     fn advance(
         &mut self,
-        local: &mut Local<'h>,
+        local: &mut Local,
         step: f64,
         monitor: &mut Monitor<'_>,
     ) -> Result<Advance, Ending> {
@@ -165,11 +165,7 @@ impl<'h> Curve<'h> {
     }
 
     /// Factorises at the place of the curve with the border `normal`, and finds the tangent.
-    fn local(
-        &mut self,
-        border: &PathPoint,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Local<'h>, Ending> {
+    fn local(&mut self, border: &PathPoint, monitor: &mut Monitor<'_>) -> Result<Local, Ending> {
         let value = self.homotopy.value(&self.pieces, &self.place);
         if value.stretch > AWAY * self.homotopy.size {
             return Err(Ending::Stalled("the displacements run away on the path of solutions"));
@@ -184,7 +180,7 @@ impl<'h> Curve<'h> {
         value: &Value,
         border: &PathPoint,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Local<'h>>, Ending> {
+    ) -> Result<Option<Local>, Ending> {
         monitor.step()?;
         let equations = self.homotopy.equations;
         let pairs = equations.linearised(&self.pieces, &place.y);
@@ -209,12 +205,12 @@ impl<'h> Curve<'h> {
     /// The zero of `H` on the pieces near `place` that meets a condition, if the corrector finds it.
     fn correct(
         &mut self,
-        local: &mut Local<'h>,
+        local: &mut Local,
         mut place: PathPoint,
         condition: &Condition,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<PathPoint>, Ending> {
-        let mut fresh: Option<Local<'h>> = None;
+        let mut fresh: Option<Local> = None;
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {

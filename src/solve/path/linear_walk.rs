@@ -4,7 +4,7 @@ use crate::law::{Linearised, Piece, PieceExit, Planar};
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::largest_of;
 use crate::monitor::{Monitor, Stop};
-use crate::solve::pieces::{Equations, System, Updated};
+use crate::solve::pieces::{Equations, System, Updated, by_pairs};
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as
 /// large as what is looked for.
@@ -230,7 +230,7 @@ impl<'p> Walk<'p> {
 
     /// The displacements of today.
     pub fn displacements(&self) -> Vec<f64> {
-        self.equations.values(&self.pieces, &self.equations.by_pairs(&self.y)).0
+        self.equations.values(&self.pieces, &by_pairs(self.equations.dim, &self.y)).0
     }
 }
 

@@ -6,7 +6,7 @@ use crate::law::Piece;
 use crate::law::{Contact, Linearised, PairLaw, Vector};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::{NormSum, norm};
-use crate::problem::BoundedLcp;
+use crate::problem::{BoundedLcp, Remembered};
 
 /// The equations of some pairs: of a whole problem, or of what is left of one when others are
 /// eliminated.
@@ -25,6 +25,14 @@ pub struct Equations<'a> {
     pub root: Vec<f64>,
     /// Size of the loads of the whole problem, as `eta` measures it; a force.
     pub unit: f64,
+    /// What problems with this matrix leave for each other; `None`: the equations stand alone.
+    pub remembered: Option<&'a Remembered>,
+}
+
+/// The vectors of pairs of `dim` components from a vector of all components.
+pub fn by_pairs(dim: usize, values: &[f64]) -> Vec<Vector> {
+    let of_pair = |own: &[f64]| std::array::from_fn(|c| own.get(c).copied().unwrap_or(0.0));
+    values.chunks_exact(dim).map(of_pair).collect()
 }
 
 impl<'a> Equations<'a> {
@@ -34,7 +42,8 @@ impl<'a> Equations<'a> {
         let (load, laws) = (Cow::Borrowed(problem.load()), Cow::Borrowed(contact.pairs()));
         let matrix = problem.stiffness();
         let equations = Self::new(contact.dim(), matrix, load, laws, norm(problem.load()));
-        Equations { symmetric: problem.is_symmetric(), ..equations }
+        let remembered = problem.remembered();
+        Equations { symmetric: problem.is_symmetric(), remembered, ..equations }
     }
 
     /// The equations of `laws` with their symmetric matrix and load.
@@ -47,7 +56,7 @@ impl<'a> Equations<'a> {
     ) -> Self {
         let root = laws.iter().flat_map(|law| law.scale().into_iter().take(dim));
         let root = root.map(f64::sqrt).collect();
-        Equations { dim, matrix, symmetric: true, load, laws, root, unit }
+        Equations { dim, matrix, symmetric: true, load, laws, root, unit, remembered: None }
     }
 
     /// The equations `M x + q = w` of a complementarity problem, each variable a pair of one component. They have
@@ -55,8 +64,8 @@ impl<'a> Equations<'a> {
     pub fn of_lcp(lcp: &BoundedLcp<'a>) -> Self {
         let root = lcp.matrix.units(1).iter().map(|unit| unit.sqrt()).collect();
         let (load, laws) = (Cow::Borrowed(lcp.q), Cow::Borrowed([].as_slice()));
-        let (matrix, symmetric) = (lcp.matrix, lcp.symmetric);
-        Equations { dim: 1, matrix, symmetric, load, laws, root, unit: norm(lcp.q) }
+        let BoundedLcp { matrix, symmetric, remembered, .. } = *lcp;
+        Equations { dim: 1, matrix, symmetric, load, laws, root, unit: norm(lcp.q), remembered }
     }
 
     /// Columns of `K / k - 1`, contiguous.
@@ -88,12 +97,6 @@ impl<'a> Equations<'a> {
     pub fn linearised(&self, pieces: &[Piece], y: &[Vector]) -> Vec<Linearised> {
         let places = self.laws.iter().zip(pieces.iter().zip(y));
         places.map(|(law, (&piece, y))| law.linearised(piece, y)).collect()
-    }
-
-    /// The vectors of the pairs from a vector of all components.
-    pub fn by_pairs(&self, values: &[f64]) -> Vec<Vector> {
-        let of_pair = |own: &[f64]| std::array::from_fn(|c| own.get(c).copied().unwrap_or(0.0));
-        values.chunks_exact(self.dim).map(of_pair).collect()
     }
 
     /// The coordinates of displacements and the force that they need.

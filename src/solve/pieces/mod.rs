@@ -11,7 +11,7 @@ mod systems;
 mod term;
 mod updated;
 
-pub use equations::{Equations, Point};
+pub use equations::{Equations, Point, by_pairs};
 pub use system::{Border, System};
 pub use systems::{REFINEMENTS, SMALL, Systems};
 pub use updated::Updated;

@@ -16,7 +16,7 @@
 //! Nothing is divided by the slip. The sign of the determinant is that of `J`, or of `J` bordered: the
 //! components that are eliminated have the pivot 1.
 
-use super::equations::Equations;
+use super::equations::{Equations, by_pairs};
 use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
 use crate::linalg::tolerances::SINGULAR;
@@ -36,8 +36,10 @@ pub struct Border<'b> {
 }
 
 /// A factorised system.
-pub struct System<'e> {
-    equations: &'e Equations<'e>,
+pub struct System {
+    /// Components of a pair, and of all pairs.
+    dim: usize,
+    all: usize,
     s: f64,
     pairs: Vec<Linearised>,
     slopes: Vec<Slopes>,
@@ -57,7 +59,7 @@ struct Bordered {
     column_scale: f64,
 }
 
-impl<'e> System<'e> {
+impl System {
     /// Operations of a factorisation of pairs on their pieces.
     pub fn work(equations: &Equations<'_>, pairs: &[Linearised]) -> f64 {
         let unknowns = |pair: &Linearised| (0..equations.dim).filter(|&c| pair.moves(c)).count();
@@ -69,13 +71,14 @@ impl<'e> System<'e> {
     /// Factorises the system of pairs on their pieces; pivots below `least`, relative to the largest, make it
     /// singular. `None` too where `goes_on` says no.
     pub fn new(
-        equations: &'e Equations<'e>,
+        equations: &Equations<'_>,
         (pairs, s): (Vec<Linearised>, f64),
         border: Option<&Border<'_>>,
         least: f64,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
         let (dim, root) = (equations.dim, &equations.root);
+        let all = root.len();
         let mut unknowns = Vec::with_capacity(root.len());
         let mut held = Vec::with_capacity(root.len());
         for (i, root) in root.iter().enumerate() {
@@ -100,7 +103,7 @@ impl<'e> System<'e> {
             }
         };
         let rows = rows(equations, &held, &unknowns);
-        Some(System { equations, s, pairs, slopes, unknowns, held, rows, factor, border })
+        Some(System { dim, all, s, pairs, slopes, unknowns, held, rows, factor, border })
     }
 
     /// Sign of the determinant.
@@ -131,7 +134,7 @@ impl<'e> System<'e> {
             b.iter_mut().zip(&border.rate).for_each(|(b, rate)| *b -= rate * ds);
         }
         let dy = self.coordinates(&b, &x);
-        Some((self.equations.by_pairs(&dy), ds))
+        Some((by_pairs(self.dim, &dy), ds))
     }
 
     /// `J⁻¹ b` for each column of `b`, without a border.
@@ -141,6 +144,16 @@ impl<'e> System<'e> {
         self.coordinates(b, &x)
     }
 
+    /// True if the system is one of these equations, whose matrix it has.
+    pub fn fits(&self, equations: &Equations<'_>) -> bool {
+        let has_unit = |own: &Unknown| {
+            let root = equations.root.get(self.dim * own.pair + own.component);
+            root.is_some_and(|root| root.recip() == own.row)
+        };
+        (self.dim, self.all) == (equations.dim, equations.root.len())
+            && self.unknowns.iter().all(has_unit)
+    }
+
     /// The pairs on their pieces.
     pub fn pairs(&self) -> &[Linearised] {
         &self.pairs
@@ -148,9 +161,9 @@ impl<'e> System<'e> {
 
     /// The right-hand sides of the unknowns for each column of `b`.
     fn right_sides(&self, b: &[f64]) -> Vec<f64> {
-        let dim = self.equations.dim;
+        let dim = self.dim;
         let mut sides = Vec::with_capacity(self.unknowns.len() + 1);
-        for b in b.chunks_exact(self.equations.root.len().max(1)) {
+        for b in b.chunks_exact(self.all.max(1)) {
             sides.extend(self.unknowns.iter().map(|unknown| {
                 let at = dim * unknown.pair;
                 let dragged = match unknown.component {
@@ -165,7 +178,7 @@ impl<'e> System<'e> {
 
     /// `dy` from the unknowns, for each column of `b`.
     fn coordinates(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
-        let (dim, size, count) = (self.equations.dim, self.equations.root.len(), self.size());
+        let (dim, size, count) = (self.dim, self.all, self.size());
         let mut pushes = Vec::with_capacity(b.len() / size.max(1) * self.held.len());
         for b in b.chunks_exact(size.max(1)) {
             pushes.extend(self.held.iter().map(|&i| b[i]));
@@ -195,7 +208,7 @@ impl<'e> System<'e> {
         let tangential = self.unknowns.iter().enumerate().filter(|(_, own)| own.component == 1);
         for (k, unknown) in tangential {
             let motion = &self.slopes[unknown.pair].motion;
-            match &mut moved[k..k + self.equations.dim - 1] {
+            match &mut moved[k..k + self.dim - 1] {
                 [one, other] => [*one, *other] = ellipse::product(motion, [*one, *other]),
                 along => along.iter_mut().for_each(|along| *along *= motion[0][0]),
             }

@@ -1,12 +1,14 @@
 //! Newton's systems of one point after another. Where the law is linear on each piece, one factor serves the pieces near
 //! by.
 
-use super::equations::Equations;
+use super::equations::{Equations, by_pairs};
 use super::system::System;
 use super::updated::Updated;
-use crate::law::{Linearised, Vector};
+use crate::law::{Linearised, Piece, Vector};
 use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
+use crate::problem::Remembered;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
 /// plane.
@@ -16,19 +18,59 @@ pub const SMALL: usize = 64;
 /// whenever any do.
 pub const REFINEMENTS: usize = 3;
 
+/// Displacements are those of the solution before up to this part of the largest: polishing changes less.
+const SAME: f64 = 1e-6;
+
+/// The end of a solution, for the next problem with the same matrix.
+struct Left {
+    system: System,
+    /// The pieces of the solution, and its displacements.
+    pieces: Vec<Piece>,
+    d: Vec<f64>,
+}
+
 /// Systems of the same equations.
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
     /// The last system. In space it is one of a point, and serves no other one.
     last: Option<Updated<'e>>,
+    /// Pieces and displacements of the solution before, if the last system is what it has left.
+    before: Option<(Vec<Piece>, Vec<f64>)>,
     /// Factorisations so far.
     pub factorisations: u64,
 }
 
 impl<'e> Systems<'e> {
-    /// None yet.
+    /// None yet, or the one that the problem before with the same matrix has left.
     pub fn of(equations: &'e Equations<'e>) -> Self {
-        Systems { equations, last: None, factorisations: 0 }
+        let left = equations.remembered.filter(|_| equations.dim < 3);
+        let left = left.and_then(Remembered::take::<Left>);
+        let left = left.filter(|left| left.system.fits(equations));
+        let (last, before) = match left {
+            Some(Left { system, pieces, d }) => {
+                (Some(Updated::of(equations, system)), Some((pieces, d)))
+            }
+            None => (None, None),
+        };
+        Systems { equations, last, before, factorisations: 0 }
+    }
+
+    /// The pieces of the solution before, if `start` is that solution: in small steps of the loads most pairs stay on them.
+    pub fn pieces_of(&mut self, start: Option<&[f64]>) -> Option<Vec<Piece>> {
+        let (pieces, d) = self.before.take()?;
+        let most = SAME * norm_inf(&d);
+        let is_near = |(d, start): (&f64, &f64)| (d - start).abs() <= most;
+        start.filter(|start| d.iter().zip(*start).all(is_near)).map(|_| pieces)
+    }
+
+    /// Leaves the last system, and the solution with its pieces, for the next problem with the same matrix.
+    pub fn leave(self, solution: impl FnOnce() -> (Vec<Piece>, Vec<f64>)) {
+        if let (Some(remembered), true) = (self.equations.remembered, self.are_of_pieces())
+            && let Some(last) = self.last
+        {
+            let (pieces, d) = solution();
+            remembered.leave(Left { system: last.into_base(), pieces, d });
+        }
     }
 
     /// Operations of a change from the last system that was factorised to that of `pairs`, if it is of pieces and that
@@ -72,7 +114,7 @@ impl<'e> Systems<'e> {
     pub fn step(&mut self, lack: &[f64]) -> Option<Vec<Vector>> {
         let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
         let dy = self.last.as_mut()?.solve(&b);
-        dy.iter().all(|dy| dy.is_finite()).then(|| self.equations.by_pairs(&dy))
+        dy.iter().all(|dy| dy.is_finite()).then(|| by_pairs(self.equations.dim, &dy))
     }
 
     /// Sign of the determinant of the last system.

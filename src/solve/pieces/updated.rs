@@ -59,7 +59,7 @@ struct Made {
 /// A factorised system with changes since then.
 pub struct Updated<'e> {
     equations: &'e Equations<'e>,
-    base: System<'e>,
+    base: System,
     /// The pairs on their pieces of today.
     pairs: Vec<Linearised>,
     columns: Columns,
@@ -77,10 +77,20 @@ impl<'e> Updated<'e> {
         least: f64,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let base = System::new(equations, (pairs.clone(), 1.0), None, least, goes_on)?;
-        let columns = Columns::none(equations.root.len());
+        let base = System::new(equations, (pairs, 1.0), None, least, goes_on)?;
+        Some(Self::of(equations, base))
+    }
+
+    /// A system of these equations that is factorised already.
+    pub fn of(equations: &'e Equations<'e>, base: System) -> Self {
+        let (pairs, columns) = (base.pairs().to_vec(), Columns::none(equations.root.len()));
         let (changes, directions) = (Vec::new(), Vec::new());
-        Some(Updated { equations, base, pairs, columns, changes, directions })
+        Updated { equations, base, pairs, columns, changes, directions }
+    }
+
+    /// The system that was factorised.
+    pub fn into_base(self) -> System {
+        self.base
     }
 
     /// Unknowns that were factorised.

@@ -1,0 +1,30 @@
+//! What the solution of a problem leaves for the next one with the same matrix.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
+
+/// One thing that a method has worked out of a matrix, whatever the loads: a factor, or an elimination. The next problem
+/// with that matrix takes it out, and leaves its own.
+#[derive(Default)]
+pub struct Remembered(Mutex<Option<Box<dyn Any + Send>>>);
+
+impl Remembered {
+    /// Takes out what was left, if it is a `T`.
+    pub fn take<T: 'static>(&self) -> Option<T> {
+        let mut place = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let left = place.take_if(|left| left.is::<T>())?;
+        left.downcast().ok().map(|left| *left)
+    }
+
+    /// Leaves this for the next problem.
+    pub fn leave<T: Send + 'static>(&self, left: T) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(left));
+    }
+}
+
+impl fmt::Debug for Remembered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Remembered")
+    }
+}
