@@ -24,7 +24,7 @@ rm -rf -- "$work"
 mkdir -p -- "$work"
 touch -- "$work/began"
 unset SIGNORINI_LIBRARY
-for name in results shapes mistakes solutions operators progress surfaces meshes; do
+for name in results shapes mistakes solutions operators progress surfaces meshes zones; do
     "$python" -B "$root/tests/python/$name.py"
 done
 "$python" -B "$root/tests/python/files.py" "$work"

@@ -89,16 +89,18 @@ class Zones(unittest.TestCase):
     def test_a_node_is_master_and_slave(self):
         at = np.array([[0, 0.3], [1, 0.3], [0, 0.1], [1, 0.1], [0, 0], [1, 0]])
         springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
-        contacts = [signorini.pair_surfaces(at, [[upper, upper + 1]], [[upper + 3, upper + 2]]) for upper in (0, 2)]
+        contacts = {name: signorini.pair_surfaces(at, [[upper, upper + 1]], [[upper + 3, upper + 2]])
+                    for name, upper in (("upper", 0), ("lower", 2))}
         load = np.zeros(12)
         load[[1, 3]] = -4
-        upper, lower = solve_zones(springs, contacts, load, [], 0.3)
+        parts = solve_zones(springs, contacts, load, [], {"upper": 0.3, "lower": 0.2})
+        upper, lower = parts["upper"], parts["lower"]
         self.assertEqual(upper.status, signorini.Status.SOLVED)
         # To 1e-9: results are certified to 1e-10 of forces of size one.
         np.testing.assert_allclose(upper.F, [[-3.2, 0]] * 2, atol=1e-9)
         np.testing.assert_allclose(lower.F, [[-2, 0]] * 2, atol=1e-9)
-        np.testing.assert_allclose(contacts[0].resultant(upper).force, [0, 6.4, 0], atol=1e-9)
-        np.testing.assert_allclose(contacts[1].resultant(lower).force, [0, 4, 0], atol=1e-9)
+        np.testing.assert_allclose(contacts["upper"].resultant(upper).force, [0, 6.4, 0], atol=1e-9)
+        np.testing.assert_allclose(contacts["lower"].resultant(lower).force, [0, 4, 0], atol=1e-9)
 
     def test_rows_are_those_of_the_library(self):
         """A model of the rows has the stiffness of the model of the pairs, bit by bit."""

@@ -169,6 +169,10 @@ class Pairs(unittest.TestCase):
         # Both are certified to 1e-10 of the forces; conditions are some 1e3.
         np.testing.assert_allclose(result.F, expected.F, atol=1e-7 * abs(expected.F).max())
         self.assertIs(result.contact, model.contact)
+        sparse = signorini.Model.from_meshes((upper, lower), self.upper, self.lower, fixed=count + blocks.held,
+                                             settings={"full_space": True})
+        self.assertEqual(sparse.kind, signorini.ModelKind.FULL_SPACE)
+        np.testing.assert_allclose(sparse.solve(load, mu=0.6).F, result.F, atol=1e-7 * abs(expected.F).max())
         with self.assertRaisesRegex(TypeError, "gap is None"):
             signorini.Model.condensed(np.eye(2)).solve([1, 1])
 

@@ -19,6 +19,7 @@ from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._text import path_bytes, remark_bytes
+from ._zones import Zones
 
 _UNTOUCHED = np.iinfo(np.int32).min
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
@@ -65,11 +66,11 @@ class Model:
     Model.from_meshes or Model.operator.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     kind: a ModelKind.  memory: most bytes that a load case may take beside the model.
-    contact: the SurfacePairs of which it was made, or None.
+    contact: the SurfacePairs of which it was made, by name if these were several, or None.
     """
 
     def __init__(self, make, *arguments, settings=None):
-        self._functions, self.contact = library(), None
+        self._functions, self.contact, self._zones = library(), None, None
         self._host = contextlib.nullcontext()
         handle = address()
         function = getattr(self._functions, make)
@@ -184,32 +185,37 @@ class Model:
         """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
 
         K, fixed, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
-        the loads are those of whole rings. Several contact zones: give sparse the rows, normals and tangents of
-        all of them. The gap of a load case is contact.gaps, if it is not given.
+        the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
+        Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
+        in one zone and master in another. gap, mu, g, friction and slip0 of a case may then be a dict too, with
+        the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
-        if not isinstance(contact, SurfacePairs):
+        zones = Zones(contact) if isinstance(contact, dict) else None
+        if zones is None and not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
-                            f"pair_obstacle returns")
+                            f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
+        rows = zones.rows() if zones else None
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
-                    contact.structure, settings=settings)
-        model.contact = contact
+                    ctypes.byref(rows.structure) if zones else contact.structure, settings=settings)
+        model.contact, model._zones = contact, zones
         return model
 
     @classmethod
     def from_meshes(cls, K, slave, master, *, slave_faces=None, master_faces=None, fixed=(),
-                    triangle="full", **pairing):
+                    triangle="full", settings=None, **pairing):
         """The whole stiffness matrix of the host, with pairs from two meshes that may touch.
 
         K: as for sparse, or two matrices, of the slave's and of the master's mesh. Degrees of
         freedom are those of the slave's nodes, then those of the master's.  fixed, triangle: as for
         sparse.
+        settings: a dict of those of sparse, such as {"full_space": True}.
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
         if isinstance(K, (tuple, list)) and len(K) == 2:
             K = side_by_side(K)
-        return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle)
+        return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle, **(settings or {}))
 
     @property
     def stiffness(self):
@@ -277,7 +283,7 @@ class Model:
             case = data if cases is None else data.of(c)
             results.append(output.result(
                 c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance)
-            )._replace(contact=self.contact))
+            )._replace(contact=self._zones or self.contact))
         return results[0] if cases is None else results
 
     def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,
@@ -350,7 +356,11 @@ class Model:
 
     def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
-        if gap is None and self.contact is not None:
+        if self._zones is not None:
+            gap = self._zones.all("gaps") if gap is None else self._zones.joined("gap", gap)
+            slip0 = self._zones.joined("slip0", slip0)
+            friction.values = self._zones.joined(friction.name, friction.values)
+        elif gap is None and self.contact is not None:
             gap = self.contact.gaps
         return Case(
             f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
@@ -363,7 +373,7 @@ class Model:
         """Result of certify, of a Case and d in the library's layout."""
         with self._host:
             found = certified(self._functions, [self._handle, *case.arguments()], tolerance, d.copy(), F)
-        return found._replace(contact=self.contact)
+        return found._replace(contact=self._zones or self.contact)
 
     def prove_case(self, case, d, state):
         """Result of prove, of a Case and d in the library's layout."""

@@ -20,7 +20,7 @@ def plot(result, axes, at):
         at = reals("at", at)
         if at.shape != (pairs, dim):
             raise ValueError(f"at has the shape {at.shape}: give the place of each pair, shape {(pairs, dim)}")
-    whole = at is None and result.contact is not None
+    whole = at is None and hasattr(result.contact, "slave_faces")
     if axes is None:
         space = dim == 3 and (whole or at is not None)
         axes = pyplot.figure(layout="constrained").add_subplot(projection="3d" if space else None)

@@ -39,15 +39,29 @@ class Result(_Fields):
     escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest
     component 1, without the lift that a proof needs: draw this one; with status STALLED the motion
     along which bodies move away as supports are let go, if they do, which proves nothing; else None.
-    contact: the SurfacePairs of the model, or None.
+    contact: the SurfacePairs of the model; of a model with several zones the pairs of all of them; or None.
     """
 
     __slots__ = ()
 
+    def zone(self, name):
+        """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs."""
+        return self._zones().of(self, name)
+
+    def table(self):
+        """Pairs by state, pressed area and force of each zone: a list of (zone, pairs, open, slip, stick,
+        pressed_area, force), named so."""
+        return self._zones().table(self)
+
+    def _zones(self):
+        if not hasattr(self.contact, "places"):
+            raise ValueError("the model has no zones with names: give Model.from_surfaces a dict of them")
+        return self.contact
+
     def plot(self, axes=None, *, at=None):
         """Draws contact forces and states by matplotlib; returns its axes, which you show or save.
 
-        With pairs from surfaces: in 2D pressure and traction along the slave's surface, in 3D the
+        With pairs from surfaces of one zone: in 2D pressure and traction along the slave's surface, in 3D the
         pressure on the slave's faces, and tractions as arrows. With at, the places of the
         pairs, (P, D): forces at them. Otherwise forces pair by pair.
         axes: where to draw, in 3D axes with projection="3d"; None: new ones.

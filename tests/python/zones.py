@@ -1,0 +1,82 @@
+"""Several contact zones in one model: three lines above each other, each node on a spring, in closed form.
+
+Springs of 1, 2 and 4, gaps of 0.2 and 0.1, loads of 4 on the upper lines, downwards: the gaps close, and with the
+pressures p and q of a node  (4 - p) / 1 - (4 + p - q) / 2 = 0.2  and  (4 + p - q) / 2 - q / 4 = 0.1,  so p = 3.2, q = 4.
+"""
+
+import unittest
+
+import numpy as np
+
+import common  # noqa: F401 (the package's place)
+import signorini
+from signorini import State, Status
+
+LINES = np.array([[0, 0.3], [1, 0.3], [0, 0.1], [1, 0.1], [0, 0], [1, 0]])
+
+
+class Zones(unittest.TestCase):
+
+    def setUp(self):
+        springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
+        self.contacts = {name: signorini.pair_surfaces(LINES, [[upper, upper + 1]], [[upper + 3, upper + 2]])
+                         for name, upper in (("above", 0), ("below", 2))}
+        self.model = signorini.Model.from_surfaces(springs, self.contacts)
+        self.load = np.zeros(12)
+        self.load[[1, 3, 5, 7]] = -4
+
+    def test_forces_are_those_of_the_closed_form(self):
+        p, q = np.linalg.solve([[1.5, -0.5], [-0.5, 0.75]], [4 - 2 - 0.2, 2 - 0.1])
+        result = self.model.solve(self.load, mu=0.3)
+        self.assertEqual(result.status, Status.SOLVED)
+        for name, pressure in (("above", p), ("below", q)):
+            part = result.zone(name)
+            # Results are certified to 1e-10 of forces of size four.
+            np.testing.assert_allclose(part.F, [[-pressure, 0]] * 2, atol=1e-9)
+            self.assertIs(part.contact, self.contacts[name])
+        for row, pressure in zip(result.table(), (p, q)):
+            self.assertEqual((row.pairs, row.open, row.slip + row.stick), (2, 0, 2))
+            np.testing.assert_allclose(row.force, [0, 2 * pressure, 0], atol=1e-9)
+            self.assertAlmostEqual(row.pressed_area, 1)
+
+    def test_numbers_of_each_zone(self):
+        """A push that friction holds in one zone slides in the other."""
+        self.load[[0, 2]] = 0.5  # the upper line alone
+        held = self.model.solve(self.load, mu={"above": 0.9, "below": [0.9, 0.9]})
+        slid = self.model.solve(self.load, mu={"above": 1e-3, "below": [0.9, 0.9]})
+        self.assertEqual([held.status, slid.status], [Status.SOLVED] * 2)
+        self.assertTrue((held.zone("above").state == State.STICK).all())
+        self.assertTrue((slid.zone("above").state == State.SLIP).all())
+        wide = self.model.solve(self.load, {"above": 9.0, "below": self.contacts["below"].gaps}, 0.3)
+        self.assertTrue((wide.zone("above").state == State.OPEN).all())
+        alone = self.model.solve(self.load, {"above": 9.0, "below": 9.0}, friction={"above": [0.1, 0, 0], "below": 3 * [0]},
+                                 law="cohesive")
+        np.testing.assert_allclose(alone.F, 0, atol=1e-9)
+
+    def test_names_are_told(self):
+        with self.assertRaisesRegex(KeyError, "mu names the zone 'bolt', there is none: the zones are 'above', 'below'"):
+            self.model.solve(self.load, mu={"bolt": 0.1})
+        with self.assertRaisesRegex(KeyError, "mu lacks the zone 'below'"):
+            self.model.solve(self.load, mu={"above": 0.1})
+        with self.assertRaisesRegex(ValueError, "zones is empty"):
+            signorini.Model.from_surfaces(np.eye(2), {})
+        with self.assertRaisesRegex(TypeError, "zones\\['bolt'\\] is a int"):
+            signorini.Model.from_surfaces(np.eye(2), {"bolt": 3})
+        alone = signorini.solve(common.K, common.LOAD, 0.0, 0.3)
+        with self.assertRaisesRegex(ValueError, "the model has no zones with names"):
+            alone.zone("above")
+        result = self.model.solve(self.load)
+        with self.assertRaisesRegex(KeyError, "zone names the zone 'bolt', there is none"):
+            result.zone("bolt")
+
+    def test_many_cases_and_certify(self):
+        loads = np.array([self.load, 2 * self.load])
+        one, two = self.model.solve(loads, mu={"above": 0.3, "below": 0.1})
+        self.assertGreater(-two.zone("below").F[0, 0], -one.zone("below").F[0, 0])
+        measured = self.model.certify(self.load, None, {"above": 0.3, "below": 0.1}, d=one.d)
+        self.assertEqual(measured.status, Status.SOLVED)
+        np.testing.assert_allclose(measured.zone("above").F, one.zone("above").F, atol=1e-9)
+
+
+if __name__ == "__main__":
+    unittest.main()
