@@ -4,7 +4,11 @@ Springs of 1, 2 and 4, gaps of 0.2 and 0.1, loads of 4 on the upper lines, downw
 pressures p and q of a node  (4 - p) / 1 - (4 + p - q) / 2 = 0.2  and  (4 + p - q) / 2 - q / 4 = 0.1,  so p = 3.2, q = 4.
 """
 
+import os
+import pickle
+import tempfile
 import unittest
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -68,6 +72,32 @@ class Zones(unittest.TestCase):
         result = self.model.solve(self.load)
         with self.assertRaisesRegex(KeyError, "zone names the zone 'bolt', there is none"):
             result.zone("bolt")
+
+    def test_a_result_can_be_pickled(self):
+        part = self.model.solve(self.load, mu=0.3).zone("below")
+        again = pickle.loads(pickle.dumps(part))
+        self.assertIsNone(again.contact)
+        for name in ("d", "F", "state"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(part, name))
+        self.assertEqual((again.status, again.report), (part.status, part.report))
+
+    def test_steps_are_a_series_of_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            names = [os.path.join(folder, f"step & {step}.vtu") for step in range(3)]
+            series = os.path.join(folder, "all.pvd")
+            with self.assertRaisesRegex(FileNotFoundError, "write the steps before their series"):
+                signorini.write_series(series, names)
+            for step, name in enumerate(names):
+                result = self.model.solve((1 + step) * self.load, mu=0.3).zone("above")
+                self.contacts["above"].write(name, {"line": [[0, 1], [2, 3], [4, 5]]}, result)
+            with self.assertRaisesRegex(ValueError, "give an increasing number for each of the 3 files"):
+                signorini.write_series(series, names, [0.0, 1.0, 1.0])
+            signorini.write_series(series, names, [0.0, 0.5, 2.0])
+            steps = ElementTree.parse(series).getroot().findall("Collection/DataSet")
+            self.assertEqual([(float(step.get("timestep")), step.get("file")) for step in steps],
+                             [(time, os.path.basename(name)) for time, name in zip([0.0, 0.5, 2.0], names)])
+            for step in steps:
+                ElementTree.parse(os.path.join(folder, step.get("file")))
 
     def test_many_cases_and_certify(self):
         loads = np.array([self.load, 2 * self.load])

@@ -54,7 +54,7 @@ from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
 from ._library import SignoriniError, load
-from ._mesh import write_mesh
+from ._mesh import write_mesh, write_series
 from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
@@ -67,5 +67,5 @@ __all__ = [
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
     "SurfacePairs", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
     "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",
-    "write_lcp", "write_mesh",
+    "write_lcp", "write_mesh", "write_series",
 ]

@@ -1,6 +1,8 @@
 """Meshes with fields to files for ParaView."""
 
 import ctypes
+import os
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -72,6 +74,28 @@ def write_mesh(path, coordinates, cells, fields=None):
     given = [sized(NodalField, components=1 if values.ndim == 1 else dim, name=name, values=at(values))
              for name, values in kept]
     mesh.write(path, fields=given)
+
+
+def write_series(path, files, times=None):
+    """Writes a file .pvd, by which ParaView opens the files .vtu of load steps as one series.
+
+    files: their paths, one for each step; they stand in the .pvd relative to its folder.  times: a number for each
+    step, increasing; None: 0, 1, 2, ...
+    """
+    files = [os.fspath(file) for file in files]
+    times = np.arange(len(files)) if times is None else reals("times", times)
+    if times.shape != (len(files),) or (np.diff(times) <= 0).any():
+        raise ValueError(f"times has the shape {times.shape}: give an increasing number for each of the {len(files)} files")
+    for file in files:
+        if not os.path.isfile(file):
+            raise FileNotFoundError(f"there is no file {file}: write the steps before their series")
+    folder = os.path.dirname(os.path.abspath(os.fspath(path)))
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
+    for time, file in zip(times.tolist(), files):
+        name = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
+        lines.append(f'    <DataSet timestep="{time!r}" part="0" file={quoteattr(name)}/>')
+    with open(path, "w", encoding="utf-8") as series:
+        series.write("\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
 
 
 def points(coordinates):

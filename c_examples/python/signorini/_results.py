@@ -40,9 +40,15 @@ class Result(_Fields):
     component 1, without the lift that a proof needs: draw this one; with status STALLED the motion
     along which bodies move away as supports are let go, if they do, which proves nothing; else None.
     contact: the SurfacePairs of the model; of a model with several zones the pairs of all of them; or None.
+
+    A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
     """
 
     __slots__ = ()
+
+    def __getnewargs__(self):
+        """For pickle and copy: all but contact, which belongs to this process."""
+        return tuple(self._replace(contact=None))
 
     def zone(self, name):
         """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs."""
