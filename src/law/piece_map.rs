@@ -90,9 +90,13 @@ impl PairLaw {
     /// The displacement at `y` where the push is `push`.
     #[inline]
     pub fn displacement(&self, y: &Vector, push: &Vector) -> Vector {
-        let (reference, scale) = (self.reference(), self.scale());
-        let moved = [y[0] - push[0] - self.tension, y[1] - push[1], y[2] - push[2]];
-        std::array::from_fn(|c| reference[c] + moved[c] / scale[c])
+        // Number by number: a loop of vectors over three would wait for each of them to be stored.
+        let gap = if self.has_obstacle() { self.gap } else { 0.0 };
+        let mut d = [gap + (y[0] - push[0] - self.tension) / self.k_n, 0.0, 0.0];
+        for c in 1..self.dim {
+            d[c] = self.slip0[c - 1] + (y[c] - push[c]) / self.k_t;
+        }
+        d
     }
 
     /// The pair on a piece at the coordinates `y`.

@@ -124,6 +124,16 @@ impl Factor {
         }
     }
 
+    /// The least pivot of Cholesky's method, 1 if there is none; 0 of other factors.
+    pub fn least_pivot(&self) -> f64 {
+        match self.kind {
+            Kind::Cholesky => {
+                (0..self.size()).map(|i| self.factors[(i, i)].powi(2)).fold(1.0, f64::min)
+            }
+            Kind::Lu(_) => 0.0,
+        }
+    }
+
     /// Sign of the determinant.
     pub fn sign(&self) -> i8 {
         let negative = (0..self.size()).filter(|&i| self.factors[(i, i)] < 0.0).count();

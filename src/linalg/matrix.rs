@@ -1,6 +1,5 @@
 //! A view of a dense square matrix.
 
-use std::iter::repeat_n;
 use std::ops::Range;
 
 use super::simd::{add_four, add_four_sizes, add_four_twice, vectorised};
@@ -9,9 +8,6 @@ use super::vector::largest_of;
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
 pub const TILE: usize = 32;
-
-/// Those of a tile of a matrix that is no larger: of one or two pairs, which clearing a large tile would delay.
-const SMALL_TILE: usize = 8;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -81,8 +77,13 @@ impl<'a> Matrix<'a> {
 
     /// The largest diagonal entry of each component's group, or `otherwise` if that is zero.
     pub fn units_of_groups(&self, group: usize, otherwise: f64) -> impl Iterator<Item = f64> {
-        let firsts = (0..self.size).step_by(group);
-        firsts.flat_map(move |i| repeat_n(self.unit_of_group(i, group, otherwise), group))
+        let mut unit = otherwise;
+        (0..self.size).map(move |i| {
+            if i % group == 0 {
+                unit = self.unit_of_group(i, group, otherwise);
+            }
+            unit
+        })
     }
 
     /// The units of all components, [`Self::unit`]; those of a group that nothing resists are the largest
@@ -172,43 +173,6 @@ impl<'a> Matrix<'a> {
                 }
             },
         );
-    }
-
-    /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
-    /// across it, both times `root[i] root[j]`; `most` may be infinite.
-    pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        vectorised(
-            #[inline(always)]
-            || match self.size <= SMALL_TILE {
-                true => self.tiles_agree::<SMALL_TILE>(root, apart, most),
-                false => self.tiles_agree::<TILE>(root, apart, most),
-            },
-        )
-    }
-
-    #[inline(always)]
-    fn tiles_agree<const T: usize>(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        let mut across = [[0.0; T]; T];
-        for (columns, rows) in tiles(self.size, T) {
-            for (k, i) in rows.clone().enumerate() {
-                let upper = &self.column(i)[columns.clone()];
-                upper.iter().zip(&mut across).for_each(|(upper, across)| across[k] = *upper);
-            }
-            for (j, across) in columns.zip(&across) {
-                let begin = rows.start.max(j + 1).min(rows.end);
-                let lower = self.column(j)[begin..rows.end].iter();
-                let both = lower.zip(&across[begin - rows.start..]).zip(&root[begin..]);
-                let agree = both.fold(true, |agree, ((below, above), other)| {
-                    let scale = other * root[j];
-                    let near = (below - above).abs() <= apart * scale;
-                    agree & near & !(below.abs() > most * scale)
-                });
-                if !agree {
-                    return false;
-                }
-            }
-        }
-        true
     }
 
     /// Visits each entry below the diagonal, `lower = at(i, j)`, with the one across it,

@@ -24,6 +24,7 @@ pub(crate) mod simd;
 pub(crate) mod small_products;
 pub(crate) mod sparse_matrix;
 pub(crate) mod sparse_schur;
+mod symmetry;
 pub(crate) mod tolerances;
 pub(crate) mod vector;
 pub(crate) mod vector3;

@@ -33,19 +33,20 @@ impl Units {
     ///
     /// The powers of a stiffness are even, so that its square root has the same digits.
     pub fn of<R: Relation>(problem: &ContactProblem<'_, R>) -> Option<Self> {
-        let (load, components) = (problem.relation().load(), 0..problem.unknowns());
-        let stiffnesses = components.clone().filter_map(|i| power(problem.unit(i)));
-        let range = |(least, most): (i32, i32), power: i32| (power.min(least), power.max(most));
-        let (least, most) = stiffnesses.fold((i32::MAX, i32::MIN), range);
+        let (mut least, mut most, mut asked) = (i32::MAX, i32::MIN, None);
+        for (i, &load) in problem.relation().load().iter().enumerate() {
+            let Some(stiffness) = power(problem.unit(i)) else { continue };
+            (least, most) = (least.min(stiffness), most.max(stiffness));
+            asked = asked.max(power(load).map(|force| force - stiffness));
+        }
         if least > most {
             return None;
         }
         let stiffness = least.midpoint(most) & !1;
-        let asked = |i: usize| Some(power(load[i])? - power(problem.unit(i))?);
         let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
         let interference = power(largest_of(gaps.clone().map(|gap| gap.min(0.0))));
         let moved = power(largest_of(problem.reference_slips().iter().copied()));
-        let driven = components.filter_map(asked).chain(interference).chain(moved).max();
+        let driven = [asked, interference, moved].into_iter().max().flatten();
         let length = driven.or_else(|| power(largest_of(gaps))).unwrap_or(0) & !1;
         let is_far =
             [stiffness, length, stiffness + length].iter().any(|power| power.abs() > ORDINARY);

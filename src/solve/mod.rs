@@ -58,7 +58,7 @@ pub(crate) fn solve_dependent(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let by = (settings, plan::solve as Solve);
-    check(settings, memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    check(settings, || memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.lengths(start));
         let solution = proximal::solve_dependent(problem, by, start.as_deref(), monitor)?;
@@ -93,8 +93,8 @@ pub fn solve_flexibility(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let (form, by) = (problem.relation().form(), (settings, plan::solve as Solve));
-    let copy = if let FlexibilityForm::Dense(_) = form { copy_of(problem) } else { 0 };
-    check(settings, memory_of_flexibility(form) + copy, ("F", problem, start)).map_err(
+    let copy = || if let FlexibilityForm::Dense(_) = form { copy_of(problem) } else { 0 };
+    check(settings, || memory_of_flexibility(form) + copy(), ("F", problem, start)).map_err(
         |error| match (&error, largest_island(form)) {
             (Error::Stopped { limit: Limit::Memory, .. }, Some(island)) => {
                 Error::stopped(Limit::Memory, format!("{}: {island}", error.message().marked()))
@@ -123,7 +123,7 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    check(settings, memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    check(settings, || memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.lengths(start));
         let solution = solve_as_it_stands(problem, settings, start.as_deref(), monitor)?;
@@ -200,11 +200,13 @@ fn copy_of<R: Relation>(problem: &ContactProblem<'_, R>) -> u64 {
 /// or with entries that are not finite.
 fn check<R: Relation>(
     settings: &Settings,
-    bytes: u64,
+    bytes: impl FnOnce() -> u64,
     (name, problem, start): (&str, &ContactProblem<'_, R>, Option<&[f64]>),
 ) -> Result<(), Error> {
     settings.validate()?;
-    check_limit(bytes, settings)?;
+    if settings.memory_limit > 0 {
+        check_limit(bytes(), settings)?;
+    }
     check_start(name, problem.unknowns(), start)
 }
 

@@ -18,6 +18,7 @@ mod escape_motion;
 mod far_gaps;
 mod far_slips;
 mod floating;
+mod free_motion;
 mod idle_motions;
 mod ill_conditioned;
 mod invariance;

@@ -41,6 +41,8 @@ pub struct Pivoted {
     pub factorisations: u64,
     /// Sign of the determinant of the last system.
     orientation: i8,
+    /// As [`Candidate::definite`].
+    definite: Vec<bool>,
 }
 
 /// Solves frictionless contact from the active set of the start, or from all pairs closed; after `most`
@@ -75,7 +77,7 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
         None => Candidate::new(d, Vec::new(), pivoted.ending, effort),
     };
     let mut candidate = candidate.with_force(force);
-    candidate.orientation = pivoted.orientation;
+    (candidate.orientation, candidate.definite) = (pivoted.orientation, pivoted.definite);
     candidate
 }
 
@@ -149,11 +151,15 @@ fn solve(
         }
     };
     let (_, x, w) = best;
-    let (factorisations, orientation) =
-        (iterate.systems.factorisations, iterate.systems.orientation());
+    let systems = iterate.systems;
+    let (factorisations, orientation) = (systems.factorisations, systems.orientation());
+    let definite = match ending {
+        Ending::Done => systems.definite(&mut monitor.asking()),
+        _ => Vec::new(),
+    };
     let of_variable = |&basic: &bool| Piece { closed: !basic, ..Piece::OPEN };
-    iterate.systems.leave(|| (basic.iter().map(of_variable).collect(), x.clone()));
-    Pivoted { x, w, ending, factorisations, orientation }
+    systems.leave(|| (basic.iter().map(of_variable).collect(), x.clone()));
+    Pivoted { x, w, ending, factorisations, orientation, definite }
 }
 
 /// An iterate with its `w`.

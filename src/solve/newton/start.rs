@@ -45,7 +45,9 @@ pub(super) fn swept(
     let mut d = match start {
         Some(start) => start.to_vec(),
         None if whole.dim == 2 => {
-            whole.laws.iter().flat_map(|law| law.reference().into_iter().take(2)).collect()
+            let mut d = Vec::with_capacity(whole.root.len());
+            whole.laws.iter().for_each(|law| d.extend_from_slice(&law.reference()[..2]));
+            d
         }
         None => vec![0.0; whole.root.len()],
     };

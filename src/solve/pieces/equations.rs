@@ -54,8 +54,8 @@ impl<'a> Equations<'a> {
         laws: Cow<'a, [PairLaw]>,
         unit: f64,
     ) -> Self {
-        let root = laws.iter().flat_map(|law| law.scale().into_iter().take(dim));
-        let root = root.map(f64::sqrt).collect();
+        let mut root = Vec::with_capacity(dim * laws.len());
+        laws.iter().for_each(|law| root.extend(law.scale()[..dim].iter().map(|k| k.sqrt())));
         Equations { dim, matrix, symmetric: true, load, laws, root, unit, remembered: None }
     }
 
@@ -108,11 +108,14 @@ impl<'a> Equations<'a> {
     /// Displacements and pushes at coordinates on given pieces.
     pub fn values(&self, pieces: &[Piece], y: &[Vector]) -> (Vec<f64>, Vec<f64>) {
         let size = self.root.len();
-        let (mut d, mut push) = (Vec::with_capacity(size), Vec::with_capacity(size));
-        for ((law, y), &piece) in self.laws.iter().zip(y).zip(pieces) {
+        let (mut d, mut push) = (vec![0.0; size], vec![0.0; size]);
+        let parts = d.chunks_exact_mut(self.dim).zip(push.chunks_exact_mut(self.dim));
+        for (((law, y), &piece), (d, push)) in self.laws.iter().zip(y).zip(pieces).zip(parts) {
             let p = law.push_on(piece, y);
-            d.extend_from_slice(&law.displacement(y, &p)[..self.dim]);
-            push.extend_from_slice(&p[..self.dim]);
+            let moved = law.displacement(y, &p);
+            for c in 0..self.dim {
+                (d[c], push[c]) = (moved[c], p[c]);
+            }
         }
         (d, push)
     }
@@ -162,9 +165,10 @@ impl Point {
 
     /// The point at `y` on given pieces.
     pub fn on(equations: &Equations<'_>, pieces: Vec<Piece>, y: Vec<Vector>) -> Self {
-        let (d, push) = equations.values(&pieces, &y);
+        // Where the pushes are the lack is made.
+        let (d, mut lack) = equations.values(&pieces, &y);
         let force = equations.force(&d);
-        let lack: Vec<f64> = force.iter().zip(&push).map(|(force, p)| force + p).collect();
+        lack.iter_mut().zip(&force).for_each(|(lack, force)| *lack += force);
         let merit = equations.length(&lack);
         Point { y, pieces, d, force, lack, merit }
     }

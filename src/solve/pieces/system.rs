@@ -111,6 +111,11 @@ impl System {
         self.factor.sign()
     }
 
+    /// As [`Factor::least_pivot`].
+    pub fn least_pivot(&self) -> f64 {
+        self.factor.least_pivot()
+    }
+
     /// Number of unknowns.
     pub fn size(&self) -> usize {
         self.unknowns.len()

@@ -122,6 +122,11 @@ impl<'e> Systems<'e> {
         self.last.as_ref().map_or(0, Updated::sign)
     }
 
+    /// As [`Updated::definite`] of the last system.
+    pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
+        self.last.as_ref().map_or_else(Vec::new, |last| last.definite(goes_on))
+    }
+
     /// True if the last system is one of pieces, on which its solution is exact.
     pub fn are_of_pieces(&self) -> bool {
         self.last.is_some() && self.equations.dim < 3

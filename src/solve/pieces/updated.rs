@@ -19,7 +19,7 @@ use super::term::{Term, terms};
 use crate::law::Linearised;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
-use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
 use crate::linalg::vector::dot;
 use crate::linalg::watched::{BLOCK, GoesOn};
 
@@ -133,6 +133,37 @@ impl<'e> Updated<'e> {
     /// Sign of `det J`.
     pub fn sign(&self) -> i8 {
         self.changes.iter().fold(self.base.orientation(), |sign, made| sign * made.sign)
+    }
+
+    /// The variables of a symmetric complementarity problem that were basic in the factorised system, and those that are
+    /// since one change, if their block is positive definite beyond doubt; nothing otherwise, or where `goes_on` says no.
+    ///
+    /// `M` of the variables that became basic is the Schur complement of the block, in the units of its columns. Solutions
+    /// lose the digits by which the pivots of the factorised system are small: the product of both least pivots decides.
+    pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
+        let (first, none) = (self.base.least_pivot(), Vec::new());
+        if first <= SUSPICIOUS_PIVOT || self.changes.len() > 1 {
+            return none;
+        }
+        let root = &self.equations.root;
+        let terms = self.changes.iter().flat_map(|made| &made.terms);
+        let became_basic: Vec<(&Term, &[f64])> = terms
+            .zip(self.directions.chunks_exact(root.len().max(1)))
+            .filter(|(term, _)| self.pairs[term.first].moves(0))
+            .collect();
+        let fill = |j: usize, column: &mut [f64]| {
+            let (own, z) = became_basic[j];
+            for (entry, (term, _)) in column[j..].iter_mut().zip(&became_basic[j..]) {
+                *entry = term.along(z) * (root[own.first] / root[term.first]);
+            }
+            column[j] += 1.0;
+        };
+        let schur = Factor::new(became_basic.len(), true, SINGULAR, fill, goes_on);
+        if schur.is_none_or(|schur| first * schur.least_pivot() <= SUSPICIOUS_PIVOT) {
+            return none;
+        }
+        let pairs = self.base.pairs().iter().zip(&self.pairs);
+        pairs.map(|(before, now)| before.moves(0) || now.moves(0)).collect()
     }
 
     /// `J⁻¹ b`.

@@ -59,9 +59,10 @@ pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monit
     let (contact, problem) = (call.contact, call.contact.problem());
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
-    let (d, certificate) = (&solution.d, &solution.certificate);
+    let Solution { d, certificate, definite, .. } = &*solution;
+    let at = (d.as_slice(), certificate.states.as_slice());
     solution.remarks = Remarks {
-        free_motion: asked && moves_freely(contact, d, &certificate.states, monitor),
+        free_motion: asked && moves_freely(contact, at, definite, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         needs_low_part: solved && needs_low_part(call, solution),
         ..of_data(problem, d)

@@ -22,6 +22,8 @@ pub struct Candidate {
     pub effort: Effort,
     /// Sign of the determinant of the system of its pieces, 0 if not known.
     pub orientation: i8,
+    /// Components whose block of `K` is positive definite beyond doubt, as a factor of it has shown; empty if none is known.
+    pub definite: Vec<bool>,
     /// Errors that a refinement has found.
     pub errors: Option<Errors>,
 }
@@ -30,8 +32,8 @@ impl Candidate {
     /// A candidate with the contact forces that equilibrium needs at `d`, as the solver has them.
     pub fn new(d: Vec<f64>, force: Vec<f64>, ending: Ending, effort: Effort) -> Self {
         let certificate = OnceCell::new();
-        let (low, errors) = (Vec::new(), None);
-        Candidate { d, low, force, certificate, ending, effort, orientation: 0, errors }
+        let (low, definite, errors) = (Vec::new(), Vec::new(), None);
+        Candidate { d, low, force, certificate, ending, effort, orientation: 0, definite, errors }
     }
 
     /// A candidate whose forces follow from its displacements.

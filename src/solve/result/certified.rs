@@ -36,6 +36,7 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solu
         recession,
         errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
+        definite: candidate.definite.clone(),
         factorisations: effort.factorisations,
         outer_iterations: effort.outer_iterations,
         refactorisations: effort.refactorisations,

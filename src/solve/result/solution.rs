@@ -135,6 +135,8 @@ pub struct Solution {
     /// Sign of the determinant of the system of equations that the states select, 0 if not known.
     /// Over all solutions of a problem with positive definite `K` it adds up to +1.
     pub orientation: i8,
+    /// Components whose block of `K` is positive definite beyond doubt; empty if none is known.
+    pub(crate) definite: Vec<bool>,
     /// Data that are legal and often a mistake.
     pub remarks: Remarks,
     /// Sweeps, pivots or linear systems, of all methods that were tried.
@@ -176,6 +178,7 @@ impl Solution {
             remarks: Remarks::default(),
             errors: None,
             orientation: 0,
+            definite: Vec::new(),
             iterations: 0,
             factorisations: 0,
             outer_iterations: 0,

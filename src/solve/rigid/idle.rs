@@ -5,6 +5,8 @@
 //! have more than the loads ask for. So where displacements are that large, the rigid motion is taken away
 //! that moves no pair with a force, and that the loads do not drive.
 
+use std::cell::OnceCell;
+
 use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
@@ -61,6 +63,10 @@ fn without_force(contact: &Contact<'_>, force: &[f64]) -> Vec<usize> {
 /// True if displacements, of components with these units, are large beside what loads, forces and obstacles ask for.
 fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64], unit: impl Fn(usize) -> f64) -> bool {
     let forces = norm_inf(contact.load_with_tension()).max(norm_inf(force));
+    // No unit exceeds the largest diagonal entry: nearly all displacements are told by it.
+    if norm_inf(d) * contact.problem().stiffness().largest_diagonal() <= LARGE * forces {
+        return false;
+    }
     let pairs = contact.each(d, force).enumerate();
     let prescribed =
         pairs.map(|(pair, (law, d, _))| unit(contact.dim() * pair) * law.prescribed(d[0]));
@@ -76,11 +82,12 @@ fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64], unit: impl Fn(usize) 
 /// measure.
 pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> bool {
     let problem = contact.problem();
-    let units = problem.units_of_condensation();
-    if !is_far(contact, d, force, |i| units[i]) {
+    let units = OnceCell::new();
+    let units = || units.get_or_init(|| problem.units_of_condensation());
+    if !is_far(contact, d, force, |i| units()[i]) {
         return false;
     }
-    let of_units: f64 = d.iter().zip(&units).map(|(d, unit)| unit * d * d).sum();
+    let of_units: f64 = d.iter().zip(units()).map(|(d, unit)| unit * d * d).sum();
     dot(d, &problem.internal_force(d)) <= HELD * CONDENSATION * of_units
 }
 
@@ -88,16 +95,25 @@ pub fn is_held_by_rounding(contact: &Contact<'_>, d: &[f64], force: &[f64]) -> b
 /// pairs that touch along their normals, pressed or not. No, if there is no time for the question.
 ///
 /// Such a motion is one that the block of all other components does not resist, which is smaller than `K`, and which what
-/// is held makes regular where nothing moves freely.
+/// is held makes regular where nothing moves freely. The block is not factorised if it is a part of one that is known to be
+/// `definite` beyond doubt, and each component has its own diagonal entry as its unit: no pivot of a part is smaller than
+/// that of the whole.
 pub fn moves_freely(
     contact: &Contact<'_>,
-    d: &[f64],
-    states: &[State],
+    (d, states): (&[f64], &[State]),
+    definite: &[bool],
     monitor: &mut Monitor<'_>,
 ) -> bool {
+    let problem = contact.problem();
     let mut is_held = vec![false; contact.unknowns()];
     touching(contact, d, states).for_each(|pair| is_held[contact.dim() * pair] = true);
     let others: Vec<usize> = (0..is_held.len()).filter(|&i| !is_held[i]).collect();
-    let block = FreeBlock::of_problem(contact.problem(), others, &mut monitor.asking());
+    let is_definite = |&i: &usize| {
+        definite.get(i) == Some(&true) && problem.unit(i) == problem.stiffness().at(i, i)
+    };
+    if others.iter().all(is_definite) {
+        return false;
+    }
+    let block = FreeBlock::of_problem(problem, others, &mut monitor.asking());
     block.is_some_and(|block| block.dependent().next().is_some())
 }

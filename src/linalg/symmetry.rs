@@ -1,0 +1,83 @@
+//! How far a square matrix is from a symmetric one, by square blocks: the rows of a block and the columns of the one across
+//! the diagonal are vectors of the processor.
+
+use super::matrix::{Matrix, TILE, tiles};
+use super::simd::vectorised;
+
+/// Rows and columns of a square block that is compared with the one across the diagonal at once: a vector of doubles.
+const SIDE: usize = 4;
+
+impl Matrix<'_> {
+    /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
+    /// across it, both times `root[i] root[j]`; `most` may be infinite.
+    pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        vectorised(
+            #[inline(always)]
+            || self.blocks_agree(root, apart, most) && self.others_agree(root, apart, most),
+        )
+    }
+
+    /// [`Self::agrees_across`] of the blocks of [`SIDE`] rows and columns that lie below the diagonal.
+    #[inline(always)]
+    fn blocks_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        for (columns, rows) in tiles(self.size() - self.size() % SIDE, TILE) {
+            for j in columns.step_by(SIDE) {
+                let rows = rows.start.max(j + SIDE)..rows.end;
+                if rows.is_empty() {
+                    continue;
+                }
+                let across = vector(root, j);
+                let lower: [&[f64]; SIDE] =
+                    std::array::from_fn(|c| &self.column(j + c)[rows.clone()]);
+                for (k, i) in rows.clone().enumerate().step_by(SIDE) {
+                    let below = lower.map(|column| vector(column, k));
+                    let above: [[f64; SIDE]; SIDE] =
+                        std::array::from_fn(|r| vector(self.column(i + r), j));
+                    let down = vector(root, i);
+                    // A mark for each row: a loop over them is one of vectors.
+                    let mut marks = [0.0; SIDE];
+                    for c in 0..SIDE {
+                        for r in 0..SIDE {
+                            let scale = down[r] * across[c];
+                            let both = (below[c][r], above[r][c]);
+                            let agree = agree(both, apart * scale, most * scale);
+                            marks[r] = if agree { marks[r] } else { 1.0 };
+                        }
+                    }
+                    if marks != [0.0; SIDE] {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// [`Self::agrees_across`] of the other entries: beside the diagonal, and in the rows that fill no block.
+    #[inline(always)]
+    fn others_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
+        let whole = self.size() - self.size() % SIDE;
+        for i in 0..self.size() {
+            for j in if i < whole { i - i % SIDE } else { 0 }..i {
+                let scale = root[i] * root[j];
+                if !agree((self.at(i, j), self.at(j, i)), apart * scale, most * scale) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+}
+
+/// The numbers from `from` on.
+#[inline(always)]
+fn vector(values: &[f64], from: usize) -> [f64; SIDE] {
+    let values = &values[from..from + SIDE];
+    std::array::from_fn(|k| values[k])
+}
+
+/// `true` if an entry is of size `most` at most, and differs by `apart` at most from the one across the diagonal.
+#[inline(always)]
+fn agree((below, above): (f64, f64), apart: f64, most: f64) -> bool {
+    ((below - above).abs() <= apart) & !(below.abs() > most)
+}
