@@ -168,6 +168,50 @@ fn equilibrium_is_measured_with_the_force_that_is_returned() {
     }
 }
 
+/// Of displacements in two parts `equilibrium` is that of the first alone: not below `|K d - f - F|`, in twice the precision,
+/// and the forces returned are those of both parts. With condition numbers of 1e10 the second part is needed.
+#[test]
+fn equilibrium_counts_what_the_second_part_of_displacements_does() {
+    let (mut counted, mut seed) = (0, 0);
+    while counted < 50 {
+        seed += 1;
+        let mut rng = Rng::with_seed(seed);
+        let (dim, pairs) = (rng.usize(2..=3), rng.usize(1..=4));
+        let k = definite(&mut rng, dim * pairs, 1e10);
+        let law = coulomb(&mut rng, pairs, 1.0);
+        let case = loaded(&mut rng, dim, k, law);
+        let solution = case.solve(&Settings::default());
+        if solution.d_low.iter().all(|&low| low == 0.0) {
+            continue;
+        }
+        counted += 1;
+        let needed = exact::force(&case, &quads(&solution.d));
+        let lacking: Vec<Quad> = needed
+            .iter()
+            .zip(&solution.certificate.force)
+            .map(|(needed, &force)| Quad::sum(needed.value(), -force))
+            .collect();
+        let most = lacking.iter().fold(0.0, |most: f64, lack| most.max(lack.abs().value()));
+        let told = solution.certificate.equilibrium;
+        assert!(most <= told, "seed {seed}: {most:e} > {told:e}");
+    }
+}
+
+/// Forces so small that products have lost their digits are not certified: of two components and two roundings, four times
+/// the smallest number, beside half an epsilon of the terms, twice the load: 2^-1072 against 2^-1052 of it.
+#[test]
+fn forces_without_digits_are_not_certified() {
+    for (exponent, holds) in [(-1000, true), (-1018, true), (-1022, false), (-1040, false)] {
+        let load = 2_f64.powi(exponent / 2) * 2_f64.powi(exponent / 2);
+        let (k, f, gap) = (vec![1.0, 0.0, 0.0, 1.0], vec![load, 0.0], vec![f64::INFINITY]);
+        let law = frictionless(1);
+        let case = Case { dim: 2, pairs: 1, k, f, gap, law, slip: None };
+        let certificate = certify_pair(&case.problem(), &[load, 0.0], &[0.0; 2]);
+        assert_eq!((certificate.eta, certificate.count(Open)), (0.0, 1), "2^{exponent}");
+        assert_eq!(certificate.holds(1e-10), holds, "2^{exponent}: {certificate:?}");
+    }
+}
+
 /// The energy that resists a motion is that of the stiffness, whatever contact forces act. Two parts hold each
 /// other, `[[1, -1], [-1, 1 + e]]`; with `e` of 2^-44 rounding alone holds them as a whole. They stand against an
 /// obstacle at `1/e`, which presses as the load does.

@@ -116,6 +116,9 @@ fn small_forces_tell_states() {
             let certificate = certify(&case.problem(), &[0.0, 0.0, d[0], d[1]]);
             assert!(certificate.holds(1e-14), "2^{exponent} {state:?}: {certificate:?}");
             assert_eq!(certificate.states, [Stick, state], "2^{exponent}");
+            let counts = [Open, Slip, Stick].map(|state| certificate.count(state));
+            let stuck = 1 + usize::from(state == Stick);
+            assert_eq!(counts, [usize::from(state == Open), usize::from(state == Slip), stuck]);
             assert_eq!(certificate.force[2..], force, "2^{exponent} {state:?}");
         }
     }
