@@ -10,15 +10,12 @@ use crate::linalg::ball::{Ball, BallVector};
 use crate::linalg::definite::Definite;
 use crate::linalg::double_double::two_sum;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
-use crate::linalg::vector::{largest_of, norm_inf};
+use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
 
 /// Most steps of refinement, and by what part each must be smaller than the one before.
 const MOST_STEPS: usize = 6;
 const FALL: f64 = 0.25;
-
-/// A step that is below this part of the displacements, far below their rounding, need not be done.
-const ENOUGH: f64 = 0.01 * f64::EPSILON;
 
 /// Displacements in two parts, with the force that they need.
 pub struct Centre {
@@ -137,21 +134,13 @@ impl<'c> System<'c> {
             let lack = self.lack(centre, &by_pairs(dim, &force));
             let step = solver.product(lack.iter().map(|lack| lack.middle()).collect());
             let size = norm_inf(&step);
-            if !(size > ENOUGH * self.size(centre) && size < FALL * last) {
+            if !(size < FALL * last) {
                 break;
             }
             last = size;
             self.move_by(&step, centre);
             centre.force = problem.force_of_parts(&centre.d, &centre.low);
         }
-    }
-
-    /// Largest scaled displacement of an unknown.
-    fn size(&self, centre: &Centre) -> f64 {
-        let dim = self.contact.dim();
-        let scaled =
-            |unknown: &Unknown| centre.d[dim * unknown.pair + unknown.component] / unknown.row;
-        largest_of(self.unknowns.iter().map(scaled))
     }
 
     /// Subtracts a step of the scaled unknowns.
