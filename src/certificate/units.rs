@@ -49,3 +49,95 @@ impl Proof {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::certify;
+    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use fastrand::Rng;
+
+    /// The host's numbers are these times 2^-1000.
+    const POWER: i32 = 500;
+
+    /// Units and a certificate of a problem whose numbers are 2^-1000 and stiffnesses of 1.
+    fn small() -> (Units, Certificate) {
+        let load = [host(1.0), 0.0];
+        let problem = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: 1,
+            stiffness: &[1.0, 0.0, 0.0, 1.0],
+            ld: 2,
+            load: &load,
+            gap: &[f64::INFINITY],
+            law: FrictionLaw::Frictionless,
+            reference_slip: None,
+        });
+        let problem = problem.unwrap();
+        let units = Units::of(&problem).unwrap();
+        assert_eq!((units.host_length(1.0), units.host_force(1.0)), (load[0], load[0]));
+        (units, certify(&problem, &load))
+    }
+
+    fn host(value: f64) -> f64 {
+        value * 2_f64.powi(-POWER) * 2_f64.powi(-POWER)
+    }
+
+    fn ours(value: f64) -> f64 {
+        value * 2_f64.powi(POWER) * 2_f64.powi(POWER)
+    }
+
+    /// A whole number of 2^-80: the smallest double of the host is 2^-74 here.
+    fn fine(rng: &mut Rng, most: i32) -> f64 {
+        f64::from(rng.i32(-most..=most)) * 2_f64.powi(-80)
+    }
+
+    /// What a proof encloses it encloses in the host's units, where numbers are rounded to the smallest doubles, and where
+    /// nothing is rounded by no more. The numbers are exact: they have twenty digits or fewer.
+    #[test]
+    fn an_enclosure_counts_the_rounding_of_the_smallest_doubles() {
+        let (units, rng) = (small().0, &mut Rng::with_seed(1));
+        for seed in 0..2000 {
+            let fine_or = |rng: &mut Rng, coarse: f64| match rng.bool() {
+                true => fine(rng, 1000),
+                false => coarse,
+            };
+            let [d, low, force] = [0.5, 0.25, -2.0].map(|coarse| vec![fine_or(rng, coarse)]);
+            let [d_radius, force_radius] =
+                [0.5, 0.25].map(|coarse| vec![fine_or(rng, coarse).abs()]);
+            let proof = Proof { d, d_low: low, d_radius, force, force_radius };
+            let told = proof.to_host(units);
+            let check = |(middle, radius): (f64, f64), (of, around): (f64, f64), exact: bool| {
+                let needed = (middle - ours(of)).abs() + radius;
+                assert!(needed <= ours(around), "seed {seed}: {proof:?}, {told:?}");
+                assert!(!exact || ours(around) == radius, "seed {seed}: {proof:?}, {told:?}");
+                assert!(ours(around) <= radius + 4.0 * ours(LEAST), "seed {seed}: {told:?}");
+            };
+            let is_kept = |values: &[f64]| values.iter().all(|&value| ours(host(value)) == value);
+            let middle = proof.d[0] + proof.d_low[0];
+            let kept = is_kept(&[proof.d[0], proof.d_low[0], proof.d_radius[0]]);
+            let of = told.d[0] + told.d_low[0];
+            check((middle, proof.d_radius[0]), (of, told.d_radius[0]), kept);
+            let kept = is_kept(&[proof.force[0], proof.force_radius[0]]);
+            check(
+                (proof.force[0], proof.force_radius[0]),
+                (told.force[0], told.force_radius[0]),
+                kept,
+            );
+        }
+    }
+
+    /// What a force lacks to equilibrium counts its rounding.
+    #[test]
+    fn equilibrium_counts_the_rounding_of_the_smallest_forces() {
+        let ((units, certificate), rng) = (small(), &mut Rng::with_seed(2));
+        for seed in 0..200 {
+            let force = vec![fine(rng, 1000), fine(rng, 1000)];
+            let measured = Certificate { force, equilibrium: 0.0, ..certificate.clone() };
+            let told = measured.to_host(units);
+            let forces = measured.force.iter().zip(&told.force);
+            let off = forces.map(|(force, told)| (force - ours(*told)).abs());
+            assert!(off.fold(0.0, f64::max) <= ours(told.equilibrium), "seed {seed}: {told:?}");
+        }
+    }
+}
