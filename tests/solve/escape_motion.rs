@@ -58,6 +58,21 @@ fn a_block_tips_about_its_edge() {
     assert!((dot(&escape.unbalanced, &escape.motion) - 1.0).abs() <= SMALL, "{escape:?}");
 }
 
+/// The same about either edge, in words: the pair at the edge rests, and the other end moves most, away from its obstacle.
+#[test]
+fn the_sentence_tells_what_moves() {
+    for (pulled, pressed) in [(0, 3), (3, 0)] {
+        let mut f = vec![0.0; 8];
+        (f[2 * pulled], f[2 * pressed]) = (-1.0, 3.0);
+        let (k, law) = (block(&mut Rng::with_seed(1), 4), Law::Coulomb(vec![0.7; 4]));
+        let case = Case { dim: 2, pairs: 4, k, f, gap: vec![0.0; 4], law, slip: None };
+        let solution = case.solve(&Settings::default());
+        let words =
+            format!("moves 3 of 4 pairs, most of all pair {pulled}, away from the obstacle;");
+        assert!(solution.message.contains(&words), "{}", solution.message);
+    }
+}
+
 /// A rigid body on pairs at random places, its inner stiffness random: the rigid motions of the pairs, and
 /// the problem.
 fn body(rng: &mut Rng) -> (Vec<Vec<f64>>, Case) {
