@@ -41,6 +41,9 @@ pub fn enclose(
     let v = system.beyond_reference(centre);
     let force = enclosed_force(system.contact, (&centre.d, &centre.low), &centre.force);
     let lack = system.lack(centre, &force);
+    if !goes_on() {
+        return None;
+    }
     match solver {
         Solver::Definite(definite) => {
             let radius = (length_up(&lack) / definite.least()).next_up();
@@ -73,9 +76,6 @@ fn by_inverse(
     let middle: Vec<f64> = lack.iter().map(|lack| lack.middle()).collect();
     let doubt: Vec<f64> = lack.iter().map(|lack| lack.radius()).collect();
     let first = inverse.image(&middle, &doubt);
-    if !goes_on() {
-        return None;
-    }
     let eps = BOX * first.iter().fold(f64::MIN_POSITIVE, |most, &z| most.max(z));
     let neighbourhood = Neighbourhood::new(system, force, v, eps);
     let alpha = inverse.contraction(&neighbourhood.doubts(), goes_on)?;

@@ -72,7 +72,7 @@ pub(crate) fn prove_parts(
     let mut centre = on_pieces(contact, &pairs, Centre { d: d.to_vec(), low: low.to_vec(), force });
     let system = System::new(contact, pairs, &centre);
     let mut solver = system.solver(goes_on)?;
-    system.refine(&mut solver, &mut centre);
+    system.refine(&mut solver, &mut centre, goes_on);
     let enclosure = enclose(&system, &solver, &centre, goes_on)?;
     let of_parts = |part: fn(Ball) -> f64| -> Vec<f64> {
         let parts = |force: &BallVector| force[..contact.dim()].to_vec();

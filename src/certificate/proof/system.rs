@@ -125,11 +125,14 @@ impl<'c> System<'c> {
         self.assembly().motion_of(unknown)
     }
 
-    /// Refines the centre by residuals in twice the precision until steps fall no further.
-    pub fn refine(&self, solver: &mut Solver, centre: &mut Centre) {
+    /// Refines the centre by residuals in twice the precision until steps fall no further, or `goes_on` says no.
+    pub fn refine(&self, solver: &mut Solver, centre: &mut Centre, goes_on: GoesOn<'_>) {
         let (dim, problem) = (self.contact.dim(), self.contact.problem());
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
+            if !goes_on() {
+                break;
+            }
             let force: Vec<Ball> = centre.force.iter().map(|&force| Ball::exact(force)).collect();
             let lack = self.lack(centre, &by_pairs(dim, &force));
             let step = solver.product(lack.iter().map(|lack| lack.middle()).collect());
