@@ -26,6 +26,10 @@ fn main() {
     let name = format!("libsignorini.so.{}.{}", version("MAJOR"), version("MINOR"));
     match var("CARGO_CFG_TARGET_OS").as_deref() {
         Ok("linux") => println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,{name}"),
+        // Programs look where they say: without this, where cargo has built it.
+        Ok("macos") => {
+            println!("cargo::rustc-cdylib-link-arg=-Wl,-install_name,@rpath/libsignorini.dylib");
+        }
         Ok("windows") => export_fortran_names(),
         _ => (),
     }

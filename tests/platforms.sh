@@ -1,12 +1,13 @@
 #!/bin/sh
-# Other machines: the library is built for them from Linux, and their programs run here.
+# Other machines: the library is built for them from Linux, and their programs run here, but for those of macOS.
 #
 #     sh tests/platforms.sh [--install] [PLATFORM...]
 #
-# PLATFORM   windows (x86_64, MinGW; run by wine) or aarch64 (glibc; run by qemu). Default: both. No emulator has the
-#            libraries of macOS.
-# --install  has apt-get fetch what is missing. Without it nothing is installed, a platform whose tools are
-#            missing is named and skipped, and it ends with 77.
+# PLATFORM   windows (x86_64, MinGW; run by wine), aarch64 (glibc; run by qemu), musl (x86_64, static programs; run as
+#            they are) or macos (aarch64 and x86_64; linked and not run, for no emulator has the libraries of macOS).
+#            Default: the first three.
+# --install  has apt-get, rustup and pip fetch what is missing. Without it nothing is installed, a platform whose tools
+#            are missing is named and skipped, and it ends with 77.
 #
 # The C programs are those of c_examples/CMakeLists.txt, those in Fortran those of tests/fortran.sh: nothing is listed
 # here but what is compared. Bar, junction and blocks are solved on this machine too: all numbers agree to 1e-12 of the
@@ -17,7 +18,7 @@
 # signals of POSIX and malloc's own settings are left out where the system has none.
 #
 # The standard library of a target is that of rustup's compiler, if `rustup target add` has brought it. Otherwise it is
-# compiled from Debian's source of it, rust-web-src, by Debian's compiler, rustc-web.
+# compiled from Debian's source of it, rust-web-src, by Debian's compiler, rustc-web. For musl and macOS rustup is needed.
 set -u
 LC_ALL=C
 export LC_ALL
@@ -33,11 +34,11 @@ here=$root/tests/platforms
 
 install=
 [ "${1-}" != --install ] || { install=yes; shift; }
-[ $# -gt 0 ] || set -- windows aarch64
+[ $# -gt 0 ] || set -- windows aarch64 musl
 for platform in "$@"; do
     case $platform in
-    windows | aarch64) ;;
-    *) die "unknown: '$platform'; usage: sh tests/platforms.sh [--install] [windows|aarch64...]" ;;
+    windows | aarch64 | musl | macos) ;;
+    *) die "unknown: '$platform'; usage: sh tests/platforms.sh [--install] [windows|aarch64|musl|macos...]" ;;
     esac
 done
 unset CARGO_BUILD_TARGET RUSTFLAGS CARGO_TARGET_DIR CC AR FC SIGNORINI_LIBRARY

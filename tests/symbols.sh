@@ -4,6 +4,8 @@
 # installation shows the same functions and no others.
 #
 # usage: sh tests/symbols.sh LIBRARY [ARCHIVE]
+#
+# SYSTEM is the system of the library as `uname -s` says it, by default this one; NM is the nm that reads it.
 
 set -u
 LC_ALL=C
@@ -13,6 +15,8 @@ library=${1:?usage: sh tests/symbols.sh LIBRARY [ARCHIVE]}
 archive=${2:-}
 headers=$(dirname "$0")/../include
 header=$headers/signorini.h
+system=${SYSTEM:-$(uname -s)}
+nm=${NM:-nm}
 failed=0
 
 fail() {
@@ -50,12 +54,12 @@ done
 declared=$(echo "$declared" | sort -u)
 
 # macOS puts an underscore in front of every name and has no versions of shared objects.
-if [ "$(uname -s)" = Darwin ]; then
-    names() { nm -gP "$@" "$library" | sed 's/^_//; s/ .*//' | sort -u; }
+if [ "$system" = Darwin ]; then
+    names() { "$nm" -gP "$@" "$library" | sed 's/^_//; s/ .*//' | sort -u; }
     exported=$(names -U)
     imported=$(names -u)
 else
-    names() { nm -DP "$@" "$library" | sed 's/[ @].*//' | sort -u; }
+    names() { "$nm" -DP "$@" "$library" | sed 's/[ @].*//' | sort -u; }
     exported=$(names --defined-only)
     imported=$(names --undefined-only)
 fi
@@ -76,14 +80,14 @@ for name in exit _Exit quick_exit atexit on_exit printf fprintf vfprintf puts fp
     echo "$imported" | grep -qx "$name" && fail "it calls $name"
 done
 
-if [ "$(uname -s)" != Darwin ]; then
+if [ "$system" != Darwin ]; then
     version() { sed -n "s/^#define SIGNORINI_VERSION_$1 \([0-9]*\)\( .*\)\{0,1\}$/\1/p" "$header"; }
     wanted=libsignorini.so.$(version MAJOR).$(version MINOR)
     soname=$(readelf -d "$library" | sed -n 's/.*(SONAME).*\[\(.*\)\].*/\1/p')
     [ "$soname" = "$wanted" ] || fail "its SONAME is '$soname', not '$wanted'"
 
     if [ -n "$archive" ]; then
-        shown=$(nm -P --defined-only --extern-only "$archive" | awk '$2 ~ /^[A-Za-z]$/ { print $1 }' |
+        shown=$("$nm" -P --defined-only --extern-only "$archive" | awk '$2 ~ /^[A-Za-z]$/ { print $1 }' |
             sort -u)
         [ "$shown" = "$declared" ] || {
             fail "$archive does not show what is declared, but:"

@@ -4,6 +4,7 @@
  */
 
 #define _POSIX_C_SOURCE 200809L /* mkdtemp, directories, limits of file size */
+#define _DARWIN_C_SOURCE         /* mkdtemp, which macOS hides from POSIX */
 
 #include "check.h"
 

@@ -154,3 +154,67 @@ run_aarch64() {
     fortran aarch64 aarch64-linux-gnu-gfortran qemu-aarch64-static || result=1
     return $result
 }
+
+# Static programs, with the unwinder that comes with Rust: that of Debian's gcc asks for functions of glibc. So do the
+# libraries of its compilers for C++ and Fortran.
+run_musl() {
+    library_for x86_64-unknown-linux-musl || return 1
+    unwinder=$("$RUSTC" --print target-libdir --target x86_64-unknown-linux-musl)/self-contained/libunwind.a
+    say "musl: C++ and Fortran SKIPPED: Debian's compilers have libraries for glibc alone"
+    programs musl "" -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_C_COMPILER=musl-gcc -DCMAKE_EXE_LINKER_FLAGS=-static \
+        "-DCMAKE_C_STANDARD_LIBRARIES=$unwinder" -DCMAKE_CXX_COMPILER=NOTFOUND || return 1
+    grep '^pair ' "$root/README.md" >"$work/pairs"
+    musl-gcc -static -I"$root/include" "$root/c_examples/first/first.c" "$built/libsignorini.a" \
+        "$unwinder" -o "$work/musl/first" &&
+        "$work/musl/first" | diff "$work/pairs" - || { say "musl: first.c prints something else"; return 1; }
+    echo "musl     README: first.c" >>"$work/table"
+}
+
+# Linked and not run: Rust's linker makes the shared library, and zig the C programs, with zig's list of what the
+# system's library exports. LLVM's tools do not know the name of the newest processor in it.
+run_macos() {
+    stubs=$work/macos.sdk
+    mkdir -p "$stubs/usr/lib"
+    exports=$("$zig" -c 'import os, ziglang; print(os.path.dirname(ziglang.__file__))')/lib/libc/darwin/libSystem.tbd
+    for name in System c m; do
+        sed 's/arm64e\.x1-/arm64-/g' "$exports" >"$stubs/usr/lib/lib$name.tbd" || return 1
+    done
+    # The crate `libc` names a library of which nothing is used here.
+    printf -- "--- !tapi-tbd\ntbd-version: 4\ntargets: [ x86_64-macos, arm64-macos ]\ninstall-name: %s\n...\n" \
+        /usr/lib/libiconv.2.dylib >"$stubs/usr/lib/libiconv.tbd"
+    # CMake asks for the version of the system.
+    printf '#!/bin/sh\necho 11.0\n' >"$stubs/sw_vers"
+    chmod 755 "$stubs/sw_vers"
+    PATH=$stubs:$PATH
+    CARGO_TARGET_AARCH64_APPLE_DARWIN_LINKER=$here/macos_linker.sh
+    CARGO_TARGET_X86_64_APPLE_DARWIN_LINKER=$here/macos_linker.sh
+    export CARGO_TARGET_AARCH64_APPLE_DARWIN_LINKER CARGO_TARGET_X86_64_APPLE_DARWIN_LINKER
+    macos_programs aarch64 && macos_programs x86_64
+}
+
+# macos_programs PROCESSOR: the library is not optimised, which is faster and needs as many functions of the system.
+macos_programs() {
+    CARGO_PROFILE_RELEASE_OPT_LEVEL=0
+    SDKROOT=$stubs
+    export CARGO_PROFILE_RELEASE_OPT_LEVEL SDKROOT
+    library_for "$1-apple-darwin" || return 1
+    unset CARGO_PROFILE_RELEASE_OPT_LEVEL SDKROOT
+    installed=$(llvm-objdump --macho --dylib-id "$built/libsignorini.dylib" | tail -n 1)
+    [ "$installed" = @rpath/libsignorini.dylib ] || { say "macos: the library's name is $installed"; return 1; }
+    SYSTEM=Darwin NM=llvm-nm sh "$root/tests/symbols.sh" "$built/libsignorini.dylib" || return 1
+    printf '#!/bin/sh\nexec "%s" -m ziglang cc -target %s-macos "$@"\n' "$zig" "$1" >"$work/macos-$1-cc"
+    chmod 755 "$work/macos-$1-cc"
+    # Programs are not installed, so the system's tools for that are not needed.
+    configured c_examples "$work/macos-$1" "-DSIGNORINI_BUILT=$built" -DCMAKE_SYSTEM_NAME=Darwin \
+        "-DCMAKE_SYSTEM_PROCESSOR=$1" "-DCMAKE_C_COMPILER=$work/macos-$1-cc" -DCMAKE_CXX_COMPILER=NOTFOUND \
+        -DCMAKE_OSX_SYSROOT= -DCMAKE_INSTALL_NAME_TOOL=false -DCMAKE_LINKER=false || return 1
+    cmake --build "$work/macos-$1" >"$work/log" 2>&1 || { grep -i -A 6 error "$work/log" | head -n 40; return 1; }
+    llvm-objdump --macho --private-headers "$work/macos-$1/bar_on_plane" | grep -q "path $built " ||
+        { say "macos: a program does not know where the library is"; return 1; }
+    for library in libsignorini.a libsignorini.dylib; do
+        "$work/macos-$1-cc" -I"$root/include" "$root/c_examples/first/first.c" "$built/$library" \
+            -o "$work/macos-$1/first" || { say "macos: first.c is not linked with $library"; return 1; }
+    done
+    printf 'macos    %s: %s C programs linked, not run\n' "$1" \
+        "$(find "$work/macos-$1" -maxdepth 1 -type f -perm -u+x | wc -l)" >>"$work/table"
+}

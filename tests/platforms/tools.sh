@@ -39,9 +39,27 @@ missing_of() {
         have aarch64-linux-gnu-gfortran || echo gfortran-aarch64-linux-gnu
         have qemu-aarch64-static || echo qemu-user-static
         ;;
+    musl) have musl-gcc || echo musl-tools ;;
+    macos)
+        have llvm-nm && have llvm-objdump || echo llvm
+        have python3 || echo python3-venv
+        ;;
     esac
 }
 wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
+
+# Targets of a platform that rustup's compiler alone has, and lacks.
+missing_targets() {
+    targets=
+    [ "$1" != musl ] || targets=x86_64-unknown-linux-musl
+    [ "$1" != macos ] || targets="aarch64-apple-darwin x86_64-apple-darwin"
+    for target in $targets; do
+        [ -d "$(rustc --print target-libdir --target "$target" 2>/dev/null)" ] || printf '%s ' "$target"
+    done
+}
+
+# Zig, a C compiler for macOS: the PyPI package `ziglang`, in an environment of its own.
+zig=$work/zig/bin/python
 
 # True if the platform has all it needs, or has been given it.
 tools_of() {
@@ -54,6 +72,20 @@ tools_of() {
         packages=$(missing_of "$1" | sort -u | tr '\n' ' ')
     fi
     [ -z "$packages" ] || { say "$1 lacks (Debian's names): $packages"; return 1; }
+    targets=$(missing_targets "$1")
+    if [ -n "$targets" ] && [ -n "$install" ] && have rustup; then
+        # shellcheck disable=SC2086
+        rustup --quiet target add $targets || return 1
+        targets=
+    fi
+    [ -z "$targets" ] || { say "$1 lacks: rustup target add $targets"; return 1; }
+    [ "$1" != macos ] || has_zig
+}
+has_zig() {
+    "$zig" -m ziglang version >/dev/null 2>&1 && return
+    [ -n "$install" ] ||
+        { say "macos lacks: python3 -m venv $work/zig && $work/zig/bin/pip install ziglang"; return 1; }
+    python3 -m venv "$work/zig" && "$work/zig/bin/pip" install --quiet ziglang
 }
 
 # library_for TARGET: the library as `built`.
@@ -61,7 +93,8 @@ library_for() {
     compiler_of "$1"
     built=$root/target/$1/release
     say "building the library for $1: $("$RUSTC" --version)${unstable:+, with its standard library}"
+    # With rustup's compiler named, cargo would build again what it has built for this machine.
     # shellcheck disable=SC2086 # an option or none
-    (cd "$root" && RUSTC=$RUSTC RUSTC_BOOTSTRAP=${unstable:+1} "$cargo" build --quiet --release --locked --lib \
-        $unstable --target "$1" --target-dir "$root/target")
+    (cd "$root" && { [ -z "$unstable" ] || export RUSTC RUSTC_BOOTSTRAP=1; } &&
+        "$cargo" build --quiet --release --locked --lib $unstable --target "$1" --target-dir "$root/target")
 }
