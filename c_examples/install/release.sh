@@ -4,7 +4,7 @@
 #     sh c_examples/install/release.sh [OUT]
 #
 # All goes to OUT, by default target/release_files, and nothing is signed. By the same compiler the same commit gives
-# the same code in any folder (sh tests/release.sh --twice): no path of this machine is in the shared library, and all
+# the same bytes in any folder (sh tests/release.sh --twice): no path of this machine is in the shared library, and all
 # times are that of the commit or SOURCE_DATE_EPOCH. Before that: the version in Cargo.toml and its section in
 # CHANGELOG.md agree, and sh tests/run.sh --hosts has passed. MAINTAINER is as for debian.sh. To publish, tag the commit
 # vVERSION.
