@@ -10,11 +10,10 @@ use std::sync::{Mutex, PoisonError};
 pub struct Remembered(Mutex<Option<Box<dyn Any + Send>>>);
 
 impl Remembered {
-    /// Takes out what was left, if it is a `T`.
+    /// Takes out what was left; `None` if it is no `T`, which is then gone: nothing is kept while a method needs the memory.
     pub fn take<T: 'static>(&self) -> Option<T> {
-        let mut place = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let left = place.take_if(|left| left.is::<T>())?;
-        left.downcast().ok().map(|left| *left)
+        let left = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        left?.downcast().ok().map(|left| *left)
     }
 
     /// Leaves this for the next problem.

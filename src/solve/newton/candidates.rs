@@ -39,7 +39,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let Call { contact, settings, start } = *call;
     let whole = Equations::of(contact);
     let remembered = contact.problem().remembered();
-    // Nothing is left while others may need the memory, and nothing of a problem that is not solved.
+    // Nothing is left of a problem that is not solved.
     let before = remembered.and_then(Remembered::take::<Arc<Elimination>>);
     let mut search =
         Search { tolerance: settings.tolerance, core, is_series: remembered.is_some() };
