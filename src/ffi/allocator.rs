@@ -36,6 +36,7 @@ pub(super) struct CallReserve {
 
 impl CallReserve {
     /// `None`: the system has no memory.
+    #[inline(never)] // tests/c/helgrind.supp names it
     pub(super) fn begin() -> Option<Self> {
         wait_at_forks();
         let outermost = LAST.get().is_null();
@@ -57,6 +58,7 @@ impl CallReserve {
 }
 
 impl Drop for CallReserve {
+    #[inline(never)] // tests/c/helgrind.supp names it
     fn drop(&mut self) {
         if !self.outermost {
             return;
