@@ -28,8 +28,8 @@
  *
  * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
  * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
- * a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x. Transform f in the same way;
- * the mixed entries K_nt change their sign.
+ * a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x. Transform f likewise; the
+ * entries K_nt change their sign.
  *
  * Units are yours: any consistent set.
  *
@@ -51,9 +51,9 @@
  * signorini_last_error() says what is wrong and where. Entries count from 0: K[row,column].
  *
  * Structures begin with struct_size, which you set to sizeof: ..._default does, and so does
- * signorini_model_data data = {sizeof data}. No byte beyond it is read or written. So a program and
- * a library of different versions work together: fields that one of them does not know are zero or
- * keep their defaults. A field that asks for what the library does not have is refused.
+ * signorini_model_data data = {sizeof data}. No byte beyond it is read or written. So programs and
+ * libraries of different versions work together: fields that one does not know are zero or keep
+ * their defaults. A field that asks for what the library does not have is refused.
  *
  * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
  * as no thread frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call.
@@ -93,26 +93,29 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_TRESCA 2 /**< Tresca: |F_t| <= g, open or closed. friction: g >= 0; force. */
 /**
  * Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
- * |F_t| <= b - mu F_n. friction: (mu, b, a) with mu >= 0, the tension a >= 0 at which the pair
- * opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap
- * +inf, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
- * a to 0 in later load steps.
+ * |F_t| <= b - mu F_n. friction: (mu, b, a), mu >= 0, the tension a >= 0 at which the pair opens,
+ * the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap +inf, carries
+ * a, and friction up to b - mu a; a pair breaks if its b and a are 0 in later load steps.
  */
 #define SIGNORINI_LAW_COHESIVE 3
 /**
- * Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle), both
- * coefficients > 0 and at most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in
- * radians. The pair slips along the normal of this ellipse at -F_t (associated rule).
+ * Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle),
+ * coefficients > 0, at most 1e6 times apart, and the angle of axis 1 from t1 towards t2, radians.
+ * The pair slips along the normal of this ellipse at -F_t (associated rule).
  */
 #define SIGNORINI_LAW_ORTHOTROPIC 4
 /** As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule). */
 #define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
+/**
+ * A law for each pair. friction: (law, p1, p2, p3), the number of the pair's law and its
+ * parameters, unused ones 0.
+ */
+#define SIGNORINI_LAW_BY_PAIR 6
 
 /* State of a pair. */
 /**
  * The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 except under Tresca's law and
- * cohesion. A pair is open too if its pressure and friction are below 1e-11 of the largest load
- * or force.
+ * cohesion. A pair with pressure and friction below 1e-11 of the largest load or force is open too.
  */
 #define SIGNORINI_STATE_OPEN 0
 /** The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches. */
@@ -347,8 +350,8 @@ int32_t signorini_model_new_flexibility(int32_t dim, int64_t pairs, const double
 
 /**
  * Makes a model in flexibility form of a sparse matrix. Pairs that no entry of W ties to each
- * other are islands, such as heaps of bodies that do not touch. Each is solved as a dense problem
- * of its own; the largest decides the memory.
+ * other are islands, such as heaps that do not touch, each solved as a dense problem of its own;
+ * the largest decides the memory.
  *
  * The status is that of the worst island; an island without equilibrium does not stop the others.
  * At a limit, or where the callback cancels, islands that are left keep the start. report.method,
@@ -533,7 +536,7 @@ struct signorini_progress {
  * Called before each sweep, pivot or linear system, between them in long work, and often while a
  * model is made or surfaces are paired. A nonzero result cancels the call
  * (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default floating-point
- * environment. It must return: no longjmp, no exception; and it must not call this library.
+ * environment. It must return (no longjmp, no exception), and not call this library.
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
 

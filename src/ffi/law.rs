@@ -11,17 +11,19 @@ pub const SIGNORINI_LAW_COULOMB: i32 = 1;
 /// Tresca: |F_t| <= g, open or closed. friction: g >= 0; force.
 pub const SIGNORINI_LAW_TRESCA: i32 = 2;
 /// Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
-/// |F_t| <= b - mu F_n. friction: (mu, b, a) with mu >= 0, the tension a >= 0 at which the pair
-/// opens, and the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap
-/// +inf, carries the tension a and a friction of up to b - mu a. To let a pair break, set its b and
-/// a to 0 in later load steps.
+/// |F_t| <= b - mu F_n. friction: (mu, b, a), mu >= 0, the tension a >= 0 at which the pair opens,
+/// the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap +inf, carries
+/// a, and friction up to b - mu a; a pair breaks if its b and a are 0 in later load steps.
 pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
-/// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle), both
-/// coefficients > 0 and at most 1e6 times apart, and the angle of axis 1 from t1 towards t2 in
-/// radians. The pair slips along the normal of this ellipse at -F_t (associated rule).
+/// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle),
+/// coefficients > 0, at most 1e6 times apart, and the angle of axis 1 from t1 towards t2, radians.
+/// The pair slips along the normal of this ellipse at -F_t (associated rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
 /// As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;
+/// A law for each pair. friction: (law, p1, p2, p3), the number of the pair's law and its
+/// parameters, unused ones 0.
+pub const SIGNORINI_LAW_BY_PAIR: i32 = 6;
 
 /// The laws, in the order of [`Law`]; numbered without gaps.
 const NUMBERS: [i32; Law::ALL.len()] = [
@@ -31,6 +33,7 @@ const NUMBERS: [i32; Law::ALL.len()] = [
     SIGNORINI_LAW_COHESIVE,
     SIGNORINI_LAW_ORTHOTROPIC,
     SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
+    SIGNORINI_LAW_BY_PAIR,
 ];
 
 /// The last of the laws.

@@ -164,8 +164,8 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
 }
 
 /// Makes a model in flexibility form of a sparse matrix. Pairs that no entry of W ties to each
-/// other are islands, such as heaps of bodies that do not touch. Each is solved as a dense problem
-/// of its own; the largest decides the memory.
+/// other are islands, such as heaps that do not touch, each solved as a dense problem of its own;
+/// the largest decides the memory.
 ///
 /// The status is that of the worst island; an island without equilibrium does not stop the others.
 /// At a limit, or where the callback cancels, islands that are left keep the start. report.method,

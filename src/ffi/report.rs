@@ -10,8 +10,7 @@ use crate::settings::Method;
 use crate::solve::{Existence, Fallback, LcpSolution, Remarks, Solution, Uniqueness};
 
 /// The pair is apart: F_n = 0, with cohesion F_n = a; F_t = 0 except under Tresca's law and
-/// cohesion. A pair is open too if its pressure and friction are below 1e-11 of the largest load
-/// or force.
+/// cohesion. A pair with pressure and friction below 1e-11 of the largest load or force is open too.
 pub const SIGNORINI_STATE_OPEN: i32 = 0;
 /// The pair touches and slips: |F_t| is at its bound. Frictionless: every pair that touches.
 pub const SIGNORINI_STATE_SLIP: i32 = 1;

@@ -62,7 +62,7 @@ pub struct SignoriniProgress {
 /// Called before each sweep, pivot or linear system, between them in long work, and often while a
 /// model is made or surfaces are paired. A nonzero result cancels the call
 /// (SIGNORINI_STATUS_CANCELLED). It runs on the calling thread, in the default floating-point
-/// environment. It must return: no longjmp, no exception; and it must not call this library.
+/// environment. It must return (no longjmp, no exception), and not call this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 

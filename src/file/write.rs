@@ -33,7 +33,7 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
         axis => problem.reference_slip(i / dim, axis - 1),
     };
     let mut columns = vec![problem.load().to_vec(), in_normal_rows(&|pair| problem.gap(pair))];
-    columns.extend((0..law.parameters()).map(|k| in_normal_rows(&|pair| law.of_pair(pair)[k])));
+    columns.extend((0..law.parameters()).map(|k| in_normal_rows(&|pair| law.numbers(pair)[k])));
     columns.push((0..n).map(slip0).collect());
     let law = law.law();
     let kind = format!("contact\n% law: {}\n% dim: {dim}\n% pairs: {pairs}", law.name());

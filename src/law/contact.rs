@@ -35,7 +35,7 @@ impl<'p, R: Relation> Contact<'p, R> {
             let stiffness = (problem.normal_stiffness(pair), problem.tangential_stiffness(pair));
             let (dim, gap) = (problem.dim(), problem.gap(pair));
             PairLaw::new(dim, gap, slip0, Bound::FRICTIONLESS, stiffness)
-                .with_friction(problem.law(), problem.law().of_pair(pair))
+                .with_friction(problem.law().of_pair(pair))
         };
         let pairs: Vec<PairLaw> = (0..problem.pairs()).map(pair).collect();
         let mut load = Cow::Borrowed(problem.relation().load());

@@ -5,7 +5,7 @@
 //! memory: an open pair carries the tension `a` and the friction `b - mu a`, however far it is open.
 
 use super::{Bound, Ellipse, PairLaw, Rule};
-use crate::problem::FrictionLaw;
+use crate::problem::Law;
 
 impl Bound {
     /// No friction.
@@ -35,23 +35,23 @@ impl Bound {
 }
 
 impl PairLaw {
-    /// Gives the pair the friction law of a problem; `numbers` are the parameters of this pair.
-    pub(super) fn with_friction(self, law: FrictionLaw<'_>, numbers: &[f64]) -> Self {
+    /// Gives the pair its friction law with its parameters.
+    pub(super) fn with_friction(self, (law, numbers): (Law, &[f64])) -> Self {
         let elliptic = |rule| {
             let (mu, angle) = ([numbers[0], numbers[1]], numbers[2]);
             let ellipse = Ellipse::new(mu, angle, rule);
             self.with_bound(Bound::orthotropic(mu)).with_ellipse(ellipse)
         };
         match law {
-            FrictionLaw::Frictionless => self.with_bound(Bound::FRICTIONLESS),
-            FrictionLaw::Coulomb(_) => self.with_bound(Bound::coulomb(numbers[0])),
-            FrictionLaw::Tresca(_) => self.with_bound(Bound::tresca(numbers[0])),
-            FrictionLaw::Cohesive(_) => {
+            Law::Frictionless | Law::ByPair => self.with_bound(Bound::FRICTIONLESS),
+            Law::Coulomb => self.with_bound(Bound::coulomb(numbers[0])),
+            Law::Tresca => self.with_bound(Bound::tresca(numbers[0])),
+            Law::Cohesive => {
                 let (mu, b, a) = (numbers[0], numbers[1], numbers[2]);
                 self.with_bound(Bound::cohesive(mu, b, a)).with_tension(a)
             }
-            FrictionLaw::Orthotropic(_) => elliptic(Rule::Associated),
-            FrictionLaw::OrthotropicCollinear(_) => elliptic(Rule::Collinear),
+            Law::Orthotropic => elliptic(Rule::Associated),
+            Law::OrthotropicCollinear => elliptic(Rule::Collinear),
         }
     }
 }

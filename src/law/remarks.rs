@@ -18,9 +18,8 @@ pub fn deepest_of_negative_gaps<R: Relation>(problem: &ContactProblem<'_, R>) ->
 
 /// Returns `true` if a coefficient of friction is large.
 pub fn friction_is_large(law: FrictionLaw<'_>) -> bool {
-    let meanings = law.law().parameters().iter().cycle();
-    meanings.zip(law.values()).any(|((_, meaning), value)| {
-        matches!(meaning, Parameter::Coefficient | Parameter::Axis) && *value > LARGE_FRICTION
+    law.each().any(|(meaning, value)| {
+        matches!(meaning, Parameter::Coefficient | Parameter::Axis) && value > LARGE_FRICTION
     })
 }
 

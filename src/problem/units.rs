@@ -10,7 +10,7 @@ use super::contact::ContactProblem;
 use super::dependent_rows::DependentRows;
 use super::flexibility::Flexibility;
 use super::flexibility_form::FlexibilityForm;
-use super::friction_law::Parameter;
+use super::law_table::Parameter;
 use super::relation::{Redundant, Relation, Stiffness};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
@@ -103,8 +103,7 @@ pub fn in_units<R: ChangesUnits, T>(
     };
     let gap: Vec<f64> = (0..problem.pairs()).map(gap).collect::<Option<_>>()?;
     let law = problem.law();
-    let parameters = law.values().iter().zip(law.law().parameters().iter().cycle());
-    let parameters = parameters.map(|(&value, (_, meaning))| match meaning {
+    let parameters = law.each().map(|(meaning, value)| match meaning {
         Parameter::Force => exactly(value, units.force),
         _ => Some(value),
     });

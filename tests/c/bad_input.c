@@ -359,10 +359,10 @@ static void numbers(void)
     BAD(2, CERTIFY, "bad tolerance without pairs", -10, "tolerance", c.pairs = 0, c.tolerance = 0);
 }
 
-/* A wrong parameter of a law that has three for each of the two pairs. */
+/* A wrong parameter of a law that has three or four for each of the two pairs. */
 #define LAW(dim, name_of_law, name, part, ...)                                                    \
     do {                                                                                          \
-        static double three[6] = {__VA_ARGS__};                                             \
+        static double three[8] = {__VA_ARGS__};                                             \
         BAD(dim, SOLVE, name, -8, part, c.law = SIGNORINI_LAW_##name_of_law, c.friction = three); \
         BAD(dim, CERTIFY, name, -8, part, c.law = SIGNORINI_LAW_##name_of_law,                    \
             c.friction = three);                                                                  \
@@ -372,8 +372,8 @@ static void numbers(void)
 static void laws(void)
 {
     ALL("law is -1", -7, "law is -1, it must be", c.law = -1);
-    ALL("law is 6", -7, "law is 6, it must be", c.law = 6);
-    ALL("law is 6 without pairs", -7, "law is 6", c.law = 6, c.pairs = 0);
+    ALL("law is 66", -7, "law is 66, it must be", c.law = 66);
+    ALL("law is 66 without pairs", -7, "law is 66", c.law = 66, c.pairs = 0);
     BAD(2, SOLVE, "a NULL says what it must hold", -8, "mu of each pair", c.friction = NULL);
     BAD(2, TRESCA, "a NULL says what it must hold", -8, "g of each pair", c.friction = NULL);
     BAD(2, SOLVE, "a NULL says what it must hold", -8, "mu, b, a of each pair", c.friction = NULL,
@@ -393,6 +393,14 @@ static void laws(void)
         "friction[1] (mu2 of pair 0) is 1e-10, and the other coefficient 3e-1", 0.3, 1e-10, 0, 1, 1, 0);
     LAW(3, ORTHOTROPIC, "angle is infinite", "friction[5] (angle of pair 1) is not finite", 1, 1,
         0, 0.5, 1, INFINITY);
+    BAD(2, SOLVE, "a NULL says what it must hold", -8, "law, p1, p2, p3 of each pair",
+        c.friction = NULL, c.law = SIGNORINI_LAW_BY_PAIR);
+    LAW(2, BY_PAIR, "a law that no pair has", "friction[4] (law of pair 1) is 6, it must be the number",
+        0, 0, 0, 0, SIGNORINI_LAW_BY_PAIR, 0, 0, 0);
+    LAW(3, BY_PAIR, "g < 0 of one pair", "friction[5] (g of pair 1) is -1", 1, 0.3, 0, 0,
+        SIGNORINI_LAW_TRESCA, -1, 0, 0);
+    LAW(2, BY_PAIR, "one pair is orthotropic in the plane", "friction[0] (law of pair 0) is orthotropic",
+        SIGNORINI_LAW_ORTHOTROPIC, 0.3, 0.4, 0, 0, 0, 0, 0);
     BAD(2, SOLVE, "orthotropic in the plane", -7, "dim is 2", c.law = SIGNORINI_LAW_ORTHOTROPIC,
         c.friction = world.K);
     BAD(2, CERTIFY, "orthotropic in the plane", -7, "use Coulomb's law",

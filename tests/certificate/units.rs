@@ -3,8 +3,8 @@
 use crate::common::dense::largest;
 use crate::common::measures::{flaw_of_escape, motion};
 use crate::common::problems::{
-    Case, Law, block, coulomb, decades, definite, floating, frictionless, loaded, semidefinite,
-    tresca, vector,
+    Case, Law, block, coulomb, decades, definite, floating, frictionless, loaded, mixed,
+    semidefinite, tresca, vector,
 };
 use fastrand::Rng;
 use signorini::certificate::certify;
@@ -53,16 +53,7 @@ fn in_units(case: &Case, units: Units) -> Case {
         k: times(&case.k, units.force / units.length),
         f: times(&case.f, units.force),
         gap: times(&case.gap, units.length),
-        law: match &case.law {
-            law @ (Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_)) => law.clone(),
-            Law::Tresca(g) => Law::Tresca(times(g, units.force)),
-            Law::Cohesive(numbers) => Law::Cohesive(
-                numbers
-                    .chunks_exact(3)
-                    .flat_map(|n| [n[0], n[1] * units.force, n[2] * units.force])
-                    .collect(),
-            ),
-        },
+        law: case.law.with_forces(units.force),
         slip: case.slip.as_ref().map(|slip| times(slip, units.length)),
         ..*case
     }
@@ -169,6 +160,11 @@ fn check(method: Method, law: impl Fn(&mut Rng, usize) -> Law) {
 
 fn near(a: &[f64], b: &[f64], scale: f64) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9 * scale)
+}
+
+#[test]
+fn units_do_not_matter_to_laws_by_pair() {
+    check(Method::Auto, |rng, pairs| mixed(rng, (2, pairs), 0.3));
 }
 
 #[test]

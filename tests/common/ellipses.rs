@@ -23,12 +23,12 @@ const STEPS: usize = 200;
 
 /// The ellipse of a pair; `None`: a disc.
 pub fn axes(case: &Case, pair: usize) -> Option<Axes> {
-    let (numbers, associated) = match &case.law {
+    let (numbers, associated) = match case.law.own(pair) {
         Law::Orthotropic(numbers) => (numbers, true),
         Law::Collinear(numbers) => (numbers, false),
         _ => return None,
     };
-    let [first, second, angle] = [0, 1, 2].map(|k| numbers[3 * pair + k]);
+    let [first, second, angle] = [0, 1, 2].map(|k| numbers[k]);
     let most = Quad::from(first.max(second));
     let half = [first, second].map(|mu| Quad::from(mu) / most);
     Some(Axes { turn: cos_sin(angle), half, associated })

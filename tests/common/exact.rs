@@ -169,7 +169,7 @@ pub fn rounding(case: &Case, d: &[Quad], scale: f64) -> f64 {
 
 /// The ratio of the axes of an ellipse along whose trial the friction is; 0 for others.
 pub fn own_line(case: &Case, pair: usize) -> f64 {
-    match case.law {
+    match case.law.own(pair) {
         Law::Collinear(_) => axes(case, pair).map_or(0.0, |axes| axes.ratio()),
         _ => 0.0,
     }
@@ -209,7 +209,8 @@ pub fn refined(case: &Case, d: &[Quad], held: Option<&[State]>) -> Option<Vec<Qu
 
 /// True if a state names the equations of a pair.
 fn is_of_states(case: &Case) -> bool {
-    matches!(case.law, Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_))
+    let of_state = |law| matches!(law, Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_));
+    (0..case.pairs).all(|pair| of_state(case.law.own(pair)))
 }
 
 /// Derivative and value of the equations of the states.

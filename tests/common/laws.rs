@@ -1,6 +1,7 @@
 //! Random laws of a pair, points that obey them, and the law itself, stated without the library.
 
 use fastrand::Rng;
+use signorini::file::Law;
 use signorini::law::{Bound, Ellipse, PairLaw, Rule, Vector};
 
 /// A law with its numbers.
@@ -134,6 +135,25 @@ impl Numbers {
         let stiffness = |rng: &mut Rng| 10_f64.powf(uniform(rng, -1.0, 1.0));
         let k = (stiffness(rng), stiffness(rng));
         Numbers { dim, gap, slip0, bound, tension, axes, k }
+    }
+
+    /// The statement of a friction law with its parameters, of a pair without a gap.
+    pub fn of(dim: usize, (law, n): (Law, &[f64])) -> Numbers {
+        let axes = |rule| Axes { mu: [n[0], n[1]], angle: n[2], rule };
+        let (bound, tension, axes) = match law {
+            Law::Frictionless => (Bound::FRICTIONLESS, 0.0, None),
+            Law::Coulomb => (Bound::coulomb(n[0]), 0.0, None),
+            Law::Tresca => (Bound::tresca(n[0]), 0.0, None),
+            Law::Cohesive => (Bound::cohesive(n[0], n[1], n[2]), n[2], None),
+            Law::Orthotropic => {
+                (Bound::orthotropic([n[0], n[1]]), 0.0, Some(axes(Rule::Associated)))
+            }
+            Law::OrthotropicCollinear => {
+                (Bound::orthotropic([n[0], n[1]]), 0.0, Some(axes(Rule::Collinear)))
+            }
+            Law::ByPair => unreachable!("a pair has a law of its own"),
+        };
+        Numbers { dim, gap: 0.0, slip0: [0.0; 2], bound, tension, axes, k: (1.0, 1.0) }
     }
 
     pub fn law(&self) -> PairLaw {

@@ -16,14 +16,25 @@ pub enum Law {
     Orthotropic(Vec<f64>),
     /// The same, the slip against the force.
     Collinear(Vec<f64>),
+    /// The number of its own law for each pair, and three numbers, those that this law has and zeros.
+    ByPair(Vec<f64>),
 }
 
 impl Law {
-    pub fn values(&self) -> &[f64] {
+    /// The law as the library takes it.
+    pub fn friction(&self) -> FrictionLaw<'_> {
         match self {
-            Law::Coulomb(values) | Law::Tresca(values) | Law::Cohesive(values) => values,
-            Law::Orthotropic(values) | Law::Collinear(values) => values,
+            Law::Coulomb(mu) => FrictionLaw::Coulomb(mu),
+            Law::Tresca(g) => FrictionLaw::Tresca(g),
+            Law::Cohesive(numbers) => FrictionLaw::Cohesive(numbers),
+            Law::Orthotropic(numbers) => FrictionLaw::Orthotropic(numbers),
+            Law::Collinear(numbers) => FrictionLaw::OrthotropicCollinear(numbers),
+            Law::ByPair(numbers) => FrictionLaw::ByPair(numbers),
         }
+    }
+
+    pub fn values(&self) -> &[f64] {
+        self.friction().values()
     }
 
     /// This law with other numbers.
@@ -34,6 +45,72 @@ impl Law {
             Law::Cohesive(_) => Law::Cohesive(values),
             Law::Orthotropic(_) => Law::Orthotropic(values),
             Law::Collinear(_) => Law::Collinear(values),
+            Law::ByPair(_) => Law::ByPair(values),
+        }
+    }
+
+    /// Numbers of each pair.
+    pub fn stride(&self) -> usize {
+        match self {
+            Law::Coulomb(_) | Law::Tresca(_) => 1,
+            Law::Cohesive(_) | Law::Orthotropic(_) | Law::Collinear(_) => 3,
+            Law::ByPair(_) => 4,
+        }
+    }
+
+    /// The law of one pair by itself.
+    pub fn own(&self, pair: usize) -> Law {
+        let numbers = &self.values()[self.stride() * pair..][..self.stride()];
+        match self {
+            Law::ByPair(_) => match numbers[0] as usize {
+                0 => Law::Coulomb(vec![0.0]),
+                1 => Law::Coulomb(vec![numbers[1]]),
+                2 => Law::Tresca(vec![numbers[1]]),
+                3 => Law::Cohesive(numbers[1..].to_vec()),
+                4 => Law::Orthotropic(numbers[1..].to_vec()),
+                _ => Law::Collinear(numbers[1..].to_vec()),
+            },
+            law => law.with(numbers.to_vec()),
+        }
+    }
+
+    /// The number of this law, and its numbers with zeros, for each pair.
+    pub fn by_pair(&self) -> Law {
+        let number = match self {
+            Law::Coulomb(_) => 1.0,
+            Law::Tresca(_) => 2.0,
+            Law::Cohesive(_) => 3.0,
+            Law::Orthotropic(_) => 4.0,
+            Law::Collinear(_) => 5.0,
+            Law::ByPair(_) => return self.clone(),
+        };
+        let of_pair = |own: &[f64]| {
+            let at = |k: usize| own.get(k).copied().unwrap_or(0.0);
+            [number, at(0), at(1), at(2)]
+        };
+        Law::ByPair(self.values().chunks_exact(self.stride()).flat_map(of_pair).collect())
+    }
+
+    /// This law with all its forces times a factor.
+    pub fn with_forces(&self, factor: f64) -> Law {
+        let times = |values: &[f64]| values.iter().map(|value| factor * value).collect();
+        match self {
+            Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => self.clone(),
+            Law::Tresca(g) => Law::Tresca(times(g)),
+            Law::Cohesive(numbers) => Law::Cohesive(
+                numbers
+                    .chunks_exact(3)
+                    .flat_map(|n| [n[0], factor * n[1], factor * n[2]])
+                    .collect(),
+            ),
+            Law::ByPair(numbers) => Law::ByPair(
+                (0..numbers.len() / 4)
+                    .flat_map(|pair| {
+                        let own = self.own(pair).with_forces(factor).by_pair().values().to_vec();
+                        [&numbers[4 * pair..=4 * pair], &own[1..]].concat()
+                    })
+                    .collect(),
+            ),
         }
     }
 
@@ -46,6 +123,7 @@ impl Law {
             Law::Orthotropic(numbers) | Law::Collinear(numbers) => {
                 [numbers[3 * pair].max(numbers[3 * pair + 1]), 0.0, 0.0]
             }
+            Law::ByPair(_) => self.own(pair).of(0),
         }
     }
 }
@@ -72,13 +150,7 @@ impl Case {
             ld: (self.dim * self.pairs).max(1),
             load: &self.f,
             gap: &self.gap,
-            law: match &self.law {
-                Law::Coulomb(mu) => FrictionLaw::Coulomb(mu),
-                Law::Tresca(g) => FrictionLaw::Tresca(g),
-                Law::Cohesive(numbers) => FrictionLaw::Cohesive(numbers),
-                Law::Orthotropic(numbers) => FrictionLaw::Orthotropic(numbers),
-                Law::Collinear(numbers) => FrictionLaw::OrthotropicCollinear(numbers),
-            },
+            law: self.law.friction(),
             reference_slip: self.slip.as_deref(),
         }
     }
@@ -324,6 +396,26 @@ pub fn cohesive(rng: &mut Rng, pairs: usize, most: f64) -> Law {
         [mu, mu * a + more, a]
     };
     Law::Cohesive((0..pairs).flat_map(numbers).collect())
+}
+
+/// A law of its own for each pair: without friction, Coulomb's, Tresca's or cohesive, coefficients up to `most`, and in
+/// space an ellipse too.
+pub fn mixed(rng: &mut Rng, (dim, pairs): (usize, usize), most: f64) -> Law {
+    let own = |_| {
+        let law = match rng.u8(0..if dim == 2 { 4 } else { 6 }) {
+            0 => return vec![0.0; 4],
+            1 => coulomb(rng, 1, most),
+            2 => tresca(rng, 1),
+            3 => cohesive(rng, 1, most),
+            kind => {
+                let axis = |rng: &mut Rng| uniform(rng, 0.1, 1.0) * most;
+                let numbers = vec![axis(rng), axis(rng), uniform(rng, -4.0, 4.0)];
+                if kind == 4 { Law::Orthotropic(numbers) } else { Law::Collinear(numbers) }
+            }
+        };
+        law.by_pair().values().to_vec()
+    };
+    Law::ByPair((0..pairs).flat_map(own).collect())
 }
 
 pub fn frictionless(pairs: usize) -> Law {

@@ -63,9 +63,9 @@ fn recipe() -> impl Strategy<Value = Recipe> {
     )
 }
 
-/// Problems of one to four pairs under each law that has one solution.
+/// Problems of one to four pairs under each law that has one solution, and with a law for each pair.
 fn problems() -> impl Strategy<Value = Case> {
-    (2_usize..=3, 0_u8..3, any::<bool>(), prop::collection::vec(recipe(), 1..=4))
+    (2_usize..=3, 0_u8..4, any::<bool>(), prop::collection::vec(recipe(), 1..=4))
         .prop_map(|(dim, law, slips, recipes)| case(dim, law, slips, &recipes))
 }
 
@@ -81,6 +81,11 @@ fn case(dim: usize, law: u8, slips: bool, recipes: &[Recipe]) -> Case {
     let most = 0.9 / (2.0 * (normals + 2.0)).sqrt();
     let mu = |r: &Recipe| most * f64::from(r.friction) / 8.0;
     let quarter = |number: i8| f64::from(number) / 4.0;
+    let threshold = |r: &Recipe| f64::from(r.friction) / 4.0;
+    let cohesion = |r: &Recipe| {
+        let a = f64::from(r.tension) / 4.0;
+        [mu(r), mu(r) * a + f64::from(r.slip[0].unsigned_abs()) / 4.0, a]
+    };
     Case {
         dim,
         pairs,
@@ -89,13 +94,16 @@ fn case(dim: usize, law: u8, slips: bool, recipes: &[Recipe]) -> Case {
         gap: recipes.iter().map(|r| r.gap.map_or(f64::INFINITY, quarter)).collect(),
         law: match law {
             0 => Law::Coulomb(recipes.iter().map(mu).collect()),
-            1 => Law::Tresca(recipes.iter().map(|r| f64::from(r.friction) / 4.0).collect()),
+            1 => Law::Tresca(recipes.iter().map(threshold).collect()),
+            2 => Law::Cohesive(recipes.iter().flat_map(cohesion).collect()),
             _ => {
-                let numbers = |r: &Recipe| {
-                    let a = f64::from(r.tension) / 4.0;
-                    [mu(r), mu(r) * a + f64::from(r.slip[0].unsigned_abs()) / 4.0, a]
+                let own = |r: &Recipe| match r.load[0].rem_euclid(4) {
+                    0 => vec![0.0; 4],
+                    1 => vec![1.0, mu(r), 0.0, 0.0],
+                    2 => vec![2.0, threshold(r), 0.0, 0.0],
+                    _ => [&[3.0][..], &cohesion(r)].concat(),
                 };
-                Law::Cohesive(recipes.iter().flat_map(numbers).collect())
+                Law::ByPair(recipes.iter().flat_map(own).collect())
             }
         },
         slip: slips.then(|| {
@@ -180,17 +188,6 @@ fn times(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| value * factor).collect()
 }
 
-/// The law with its forces in another unit.
-fn law_times(law: &Law, force: f64) -> Law {
-    match law {
-        Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => law.clone(),
-        Law::Tresca(g) => Law::Tresca(times(g, force)),
-        Law::Cohesive(numbers) => Law::Cohesive(
-            numbers.chunks_exact(3).flat_map(|n| [n[0], force * n[1], force * n[2]]).collect(),
-        ),
-    }
-}
-
 /// The numbers of a law, pair by pair.
 fn by_pair(law: &Law, pairs: usize) -> Vec<Vec<f64>> {
     law.values().chunks(law.values().len() / pairs).map(<[f64]>::to_vec).collect()
@@ -207,7 +204,7 @@ fn units_may_be_changed() {
             k: times(&case.k, force / length),
             f: times(&case.f, force),
             gap: times(&case.gap, length),
-            law: law_times(&case.law, force),
+            law: case.law.with_forces(force),
             slip: case.slip.as_ref().map(|slip| times(slip, length)),
             ..case.clone()
         };
@@ -365,13 +362,8 @@ fn a_pair_may_be_doubled() {
             true => -1.0,
             false => 0.0,
         };
-        let split = |numbers: &[f64]| match case.law {
-            Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => numbers.to_vec(),
-            Law::Tresca(_) => times(numbers, 0.5),
-            Law::Cohesive(_) => vec![numbers[0], numbers[1] / 2.0, numbers[2] / 2.0],
-        };
         let mut numbers = by_pair(&case.law, case.pairs);
-        numbers[place] = split(&numbers[place]);
+        numbers[place] = by_pair(&case.law.with_forces(0.5), case.pairs).swap_remove(place);
         numbers.push(numbers[place].clone());
         let entry = |i: usize, j: usize| {
             case.stiffness(from(i), from(j)) * half(i) * half(j) + spring(i, j)
@@ -477,13 +469,14 @@ fn bodies_may_be_swapped() {
 fn the_problems_have_pairs_of_every_state() {
     let random = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut runner = TestRunner::new_with_rng(Config::default(), random);
-    let (mut seen, mut laws) = ([0; 3], [0; 3]);
+    let (mut seen, mut laws) = ([0; 3], [0; 4]);
     for _ in 0..CASES {
         let case = problems().new_tree(&mut runner).expect("nothing is filtered").current();
         laws[match case.law {
             Law::Coulomb(_) => 0,
             Law::Tresca(_) => 1,
-            _ => 2,
+            Law::ByPair(_) => 2,
+            _ => 3,
         }] += 1;
         for state in case.solve(&settings()).certificate.states {
             seen[match state {

@@ -243,6 +243,7 @@ int per_pair(int32_t law)
     case SIGNORINI_LAW_FRICTIONLESS: return 0;
     case SIGNORINI_LAW_COULOMB:
     case SIGNORINI_LAW_TRESCA: return 1;
+    case SIGNORINI_LAW_BY_PAIR: return 4;
     default: return 3;
     }
 }

@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     signorini_extra *extra = an_extra(p.n, p.pairs, 1);
     const int32_t law = sane() ? p.law : (int32_t)between(p.law, p.law + rarely(16) * 3);
     /* A law of three numbers is not asked for where there is one. */
-    const int32_t asked = per_pair(law) == per_pair(p.law) || law > 5 ? law : p.law;
+    const int32_t asked = per_pair(law) == per_pair(p.law) || law > SIGNORINI_LAW_BY_PAIR ? law : p.law;
     const int aliased = !sane() && rarely(64);
     arm();
     const int32_t status = signorini_solve(p.dim, pairs, p.K, ld, p.f, p.gap, asked, p.friction,

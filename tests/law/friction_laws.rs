@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::problems::{decades, definite, uniform, vector};
 use crate::laws::{Axes, Numbers, norm};
 use fastrand::Rng;
-use signorini::law::{Bound, Rule};
+use signorini::law::Rule;
 use signorini::{
     ContactData, ContactProblem, FrictionLaw, Method, Monitor, Search, Settings, Solution, State,
     Status, Uniqueness, solve,
@@ -443,10 +443,23 @@ fn solutions_in_space_obey_the_statement_of_their_law() {
                 [mu, mu * a + uniform(rng, 0.0, 0.5), a]
             })
             .collect();
+        let own = |pair: usize| {
+            let three = |numbers: &[f64]| [0, 1, 2].map(|k| numbers[3 * pair + k]);
+            let (cohesion, ellipse) = (three(&cohesion), three(&ellipses));
+            match (pair + seed as usize) % 6 {
+                0 => [0.0; 4],
+                1 => [1.0, cohesion[0], 0.0, 0.0],
+                2 => [2.0, cohesion[1], 0.0, 0.0],
+                3 => [3.0, cohesion[0], cohesion[1], cohesion[2]],
+                rule => [rule as f64, ellipse[0], ellipse[1], ellipse[2]],
+            }
+        };
+        let mixed: Vec<f64> = (0..pairs).flat_map(own).collect();
         for law in [
             FrictionLaw::Orthotropic(&ellipses),
             FrictionLaw::OrthotropicCollinear(&ellipses),
             FrictionLaw::Cohesive(&cohesion),
+            FrictionLaw::ByPair(&mixed),
         ] {
             for (method, solved) in
                 [Method::Newton, Method::SorNested, Method::Path].into_iter().zip(&mut solved)
@@ -462,7 +475,7 @@ fn solutions_in_space_obey_the_statement_of_their_law() {
             }
         }
     }
-    assert!(solved.iter().all(|&solved| solved >= 594) && solved[2] == 600, "{solved:?} of 600");
+    assert!(solved.iter().all(|&solved| solved >= 792) && solved[2] == 800, "{solved:?} of 800");
 }
 
 /// The largest distance of a pair from the statement of its law at `d`.
@@ -472,34 +485,18 @@ fn defect(body: &Body<'_>, law: FrictionLaw<'_>, d: &[f64]) -> f64 {
     let force = |i: usize| (0..n).map(|j| entry(i, j) * d[j]).sum::<f64>() - body.f[i];
     let pair = |pair: usize| {
         let i = 3 * pair;
-        let numbers = law.of_pair(pair);
         let block = [
             [entry(i + 1, i + 1), entry(i + 1, i + 2)],
             [entry(i + 2, i + 1), entry(i + 2, i + 2)],
         ];
         let (trace, gap) =
             (block[0][0] + block[1][1], (block[0][0] - block[1][1]).hypot(2.0 * block[0][1]));
-        let (rule, mu) = (
-            match law {
-                FrictionLaw::Orthotropic(_) => Some(Rule::Associated),
-                FrictionLaw::OrthotropicCollinear(_) => Some(Rule::Collinear),
-                _ => None,
-            },
-            [numbers[0], numbers[1]],
-        );
-        let axes = rule.map(|rule| Axes { mu, angle: numbers[2], rule });
         let slip = body.slip.map_or([0.0; 2], |slip| [slip[2 * pair], slip[2 * pair + 1]]);
         let numbers = Numbers {
-            dim: 3,
             gap: body.gap[pair],
             slip0: slip,
-            bound: match axes {
-                Some(_) => Bound::orthotropic(mu),
-                None => Bound::cohesive(numbers[0], numbers[1], numbers[2]),
-            },
-            tension: if axes.is_some() { 0.0 } else { numbers[2] },
-            axes,
             k: (entry(i, i), (trace + gap) / 2.0),
+            ..Numbers::of(3, law.of_pair(pair))
         };
         let v = [d[i] - numbers.gap, d[i + 1] - slip[0], d[i + 2] - slip[1]];
         let mut p = [-force(i), -force(i + 1), -force(i + 2)];

@@ -7,6 +7,7 @@ mod common;
 mod laws;
 
 mod boundaries;
+mod by_pair;
 mod friction_laws;
 mod pieces;
 mod rounding;

@@ -56,15 +56,18 @@ class Files(unittest.TestCase):
                 solved = signorini.solve(matrix, load, gap, **given, slip0=slip0, dim=dim)
                 self.same(solved.d, found.solve().d)
 
-    def test_laws_of_three_numbers_read_back(self):
+    def test_laws_of_several_numbers_read_back(self):
         rng = np.random.default_rng(5)
         for law, dim, friction in (
             ("cohesive", 2, [0.3, 0.7, 0.1]), ("cohesive", 3, [0.3, 0.7, 0.1]),
             ("orthotropic", 3, [0.3, 0.7, 0.1]), ("orthotropic_collinear", 3, [0.3, 0.7, 0.1]),
+            ("by_pair", 2, [[0, 0, 0, 0], [1, 0.3, 0, 0], [2, 0.7, 0, 0], [3, 0.3, 0.7, 0.1]]),
+            ("by_pair", 3, [[4, 0.3, 0.7, 0.1], [5, 0.3, 0.7, 0.1], [1, 0.3, 0, 0], [0, 0, 0, 0]]),
         ):
             matrix, load = positive_definite(rng, 4 * dim), rng.normal(size=(4, dim))
             matrix = (matrix + matrix.T) / 2
-            friction = rng.uniform(1, 1.1, size=(4, 3)) * friction
+            if law != "by_pair":
+                friction = rng.uniform(1, 1.1, size=(4, 3)) * friction
             signorini.write(path("law.mtx"), matrix, load, 0.0, law=law, friction=friction, dim=dim)
             found = signorini.read(path("law.mtx"))
             self.assertEqual(found.law, signorini.Law[law.upper()])

@@ -70,6 +70,9 @@ class Refused(unittest.TestCase):
                 self.refused(ValueError, [f"friction has the shape {np.shape(friction)}",
                                           "three numbers for each of the 2 pairs", "shape (2, 3)",
                                           "(3,) for all"], call, law="cohesive", friction=friction)
+            self.refused(ValueError, ["friction has the shape (3,)", "four numbers for each of the 2 "
+                                      "pairs", "shape (2, 4)"], call, law="by_pair",
+                         friction=[1, 0.3, 0])
             self.refused(TypeError, ["friction is None", "cohesive"], call, law="cohesive")
             self.refused(ValueError, "friction is given without a law", call, friction=[1, 2, 3])
             self.refused(ValueError, ["law is 'viscous', not one of", "cohesive"], call,
@@ -82,6 +85,7 @@ class Refused(unittest.TestCase):
                 ("cohesive", [0.5, 0.1, 1.0], ["friction[1] (b of pair 0) is 0.1", "mu a"]),
                 ("cohesive", [[0, 1, 1], [0, 1, -1.0]], ["friction[5] (a of pair 1) is -1"]),
                 ("orthotropic", [0.5, 0.1, 0.0], ["dim is 2", "Coulomb's law"]),
+                ("by_pair", [[1, 1, 0, 0], [2, 1, 1, 0]], ["friction[6] (p2 of pair 1) is 1"]),
             ):
                 self.refused(signorini.SignoriniError, parts, call, law=law, friction=friction)
         self.refused(signorini.SignoriniError, ["friction[3] (mu1 of pair 1) is 0", "positive"],

@@ -4,7 +4,7 @@
 use crate::common::oracle::Enumeration;
 use crate::common::problems::{
     Case, Law, cohesive, contracting_case, coulomb, definite_case, floating_case, frictionless,
-    tresca, uniform,
+    mixed, tresca, uniform,
 };
 use crate::common::verdict::{Verdict, run};
 use fastrand::Rng;
@@ -107,6 +107,23 @@ fn problems_with_cohesion_are_solved() {
     run(2000, settings(Method::Newton, 1000), definite, |_| true);
     let little = |rng: &mut Rng| definite_case(rng, 2.0, |rng, pairs| cohesive(rng, pairs, 0.3));
     run(1000, settings(Method::SorNested, 200_000), little, solved);
+}
+
+/// A law of its own for each pair, friction of any size: as with cohesion, which all laws of the plane are cases of. In
+/// bodies that only contact holds nothing is judged wrongly.
+#[test]
+fn problems_with_a_law_for_each_pair_are_solved() {
+    let definite =
+        |rng: &mut Rng| definite_case(rng, 4.0, |rng, pairs| mixed(rng, (2, pairs), 3.0));
+    let solved = |verdict| verdict == Verdict::Solved;
+    run(2000, settings(Method::Lemke, 1000), definite, solved);
+    run(2000, settings(Method::Auto, 20_000), definite, solved);
+    run(2000, settings(Method::Newton, 1000), definite, |_| true);
+    let floating =
+        |rng: &mut Rng| floating_case(rng, 4.0, |rng, pairs| mixed(rng, (2, pairs), 3.0));
+    for method in [Method::Auto, Method::Lemke, Method::SorNested] {
+        run(1500, settings(method, 2_000), floating, |_| true);
+    }
 }
 
 /// Bodies that only contact holds, which tension may hold too, are never judged wrongly. With tension

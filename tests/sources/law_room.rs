@@ -54,16 +54,21 @@ const FINITE: [&str; 2] = ["is_finite", "is_infinite"];
 /// Infinity, as "no obstacle".
 const INFINITE: [&str; 2] = ["INFINITY", "NEG_INFINITY"];
 
+/// The variants of a friction law.
+const LAWS: [&str; 7] = [
+    "Frictionless",
+    "Coulomb",
+    "Tresca",
+    "Cohesive",
+    "Orthotropic",
+    "OrthotropicCollinear",
+    "ByPair",
+];
+
 /// Types whose variants only the law may choose by.
 const CHOICES: [(&str, &[&str]); 4] = [
-    (
-        "FrictionLaw",
-        &["Frictionless", "Coulomb", "Tresca", "Cohesive", "Orthotropic", "OrthotropicCollinear"],
-    ),
-    (
-        "Law",
-        &["Frictionless", "Coulomb", "Tresca", "Cohesive", "Orthotropic", "OrthotropicCollinear"],
-    ),
+    ("FrictionLaw", &LAWS),
+    ("Law", &LAWS),
     ("State", &["Open", "Slip", "Stick"]),
     ("Tangential", &["Free", "Slip", "Stick"]),
 ];
@@ -71,14 +76,14 @@ const CHOICES: [(&str, &[&str]); 4] = [
 /// Where the data pass in or out, or where a name means something else: the place, what is allowed
 /// there, and why.
 const ALLOWED: [(&str, &str, &str); 10] = [
-    ("problem/friction_law.rs", "FrictionLaw ::", "the arrays of a law: their number and range"),
+    ("problem/friction_law.rs", "Law ::", "the arrays of a law: their number and range"),
     ("problem/contact.rs", "gap == f64 :: NEG_INFINITY", "input: a gap is a number or +inf"),
     ("problem/units.rs", "gap", "units: the size of a gap, and a gap beyond doubles"),
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),
     ("linalg/", "lower [", "a lower triangular factor"),
     ("linalg/nnls.rs", "slope", "the slope of a sum of squares"),
-    ("problem/friction_law.rs", "Law ::", "the laws and their parameters"),
+    ("problem/law_table.rs", "Law ::", "the laws and their parameters"),
     ("file/read.rs", "Law ::", "the laws that version 1 of the format has"),
     ("ffi/", "State ::", "states to constants of C"),
 ];

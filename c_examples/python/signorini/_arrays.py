@@ -59,14 +59,16 @@ def per_pair(name, values, pairs, dim, cases=None, optional=False):
                elsewhere=_elsewhere(pairs, dim, lambda pairs, dim: [(pairs,)]))
 
 
-def triples(name, values, pairs, dim, cases=None):
-    """Three numbers for each pair."""
+def several(name, values, count, pairs, dim, cases=None):
+    """Three or four numbers for each pair."""
     array = reals(name, values)
-    if array.shape == (3,):
-        array = np.broadcast_to(array, (pairs, 3))
-    asked = f"three numbers for each of the {pairs} pairs, shape {(pairs, 3)}, or (3,) for all"
-    return fit(name, array, [(pairs, 3)], asked, cases=cases,
-               elsewhere=_elsewhere(pairs, dim, lambda pairs, dim: [(pairs, 3)]))
+    if array.shape == (count,):
+        array = np.broadcast_to(array, (pairs, count))
+    word = {3: "three", 4: "four"}[count]
+    asked = (f"{word} numbers for each of the {pairs} pairs, shape {(pairs, count)}, or ({count},) "
+             "for all")
+    return fit(name, array, [(pairs, count)], asked, cases=cases,
+               elsewhere=_elsewhere(pairs, dim, lambda pairs, dim: [(pairs, count)]))
 
 
 def components(name, values, pairs, dim, *, tangential=False, cases=None, scalar=False,

@@ -45,6 +45,7 @@ class Law(IntEnum):
     COHESIVE = 3, 3
     ORTHOTROPIC = 4, 3
     ORTHOTROPIC_COLLINEAR = 5, 3
+    BY_PAIR = 6, 4
 
 
 class Method(IntEnum):

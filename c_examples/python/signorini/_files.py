@@ -18,7 +18,7 @@ class ContactProblem(namedtuple("ContactProblem", "K f gap mu g slip0 dim remark
     """A contact problem of a file: the arguments of solve, and the remark of who wrote it.
 
     f: (P, D).  slip0: (P, D - 1).  mu and g: P, or None, as the law of friction is.  law and
-    friction: a Law and (P, 3) of a law with three numbers, or None.
+    friction: a Law and (P, 3) or (P, 4) of a law with several numbers, or None.
     """
 
     __slots__ = ()
@@ -64,11 +64,11 @@ def _taken(functions, handle):
     if problem.kind == Problem.LCP:
         return LcpProblem(matrix, array("rhs", size), array("cover", size), remark)
     law = Law(problem.law)
-    triple = law.numbers == 3
-    numbers = array("friction", pairs, 3) if triple else array("friction", pairs)
+    several = law.numbers > 1
+    numbers = array("friction", pairs, law.numbers) if several else array("friction", pairs)
     return ContactProblem(
         matrix, array("rhs", pairs, dim), array("gap", pairs),
         numbers if law == Law.COULOMB else None, numbers if law == Law.TRESCA else None,
         array("slip0", pairs, dim - 1), dim, remark,
-        law if triple else None, numbers if triple else None,
+        law if several else None, numbers if several else None,
     )

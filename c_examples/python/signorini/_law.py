@@ -1,6 +1,6 @@
 """The law of friction of the caller: mu, g, a law with its numbers, or nothing."""
 
-from ._arrays import per_pair, triples
+from ._arrays import per_pair, several
 from ._constants import Law, chosen
 
 
@@ -30,6 +30,6 @@ class Friction:
 
     def numbers(self, pairs, dim, cases=None):
         """The numbers in the library's layout; None without friction."""
-        if self.law.numbers == 3:
-            return triples(self.name, self.values, pairs, dim, cases)
+        if self.law.numbers > 1:
+            return several(self.name, self.values, self.law.numbers, pairs, dim, cases)
         return per_pair(self.name, self.values, pairs, dim, cases, optional=True)

@@ -12,7 +12,7 @@ pub struct PairData {
 impl PairData {
     /// The data of these pairs of a problem.
     pub fn of<R: Relation>(problem: &ContactProblem<'_, R>, pairs: &[usize]) -> Self {
-        let parameters = |pair: &usize| problem.law().of_pair(*pair).iter().copied();
+        let parameters = |pair: &usize| problem.law().numbers(*pair).iter().copied();
         let slips =
             |&pair: &usize| (1..problem.dim()).map(move |c| problem.reference_slip(pair, c - 1));
         PairData {
