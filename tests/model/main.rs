@@ -7,4 +7,5 @@ mod cases;
 mod histories;
 mod limits;
 mod series;
+mod slabs;
 mod warm_steps;

@@ -85,6 +85,20 @@ impl SparseSchur {
         &self.schur
     }
 
+    /// Makes each of these decoupled rows of `S` as stiff as the stiffest other one of its group of `group` rows. Methods
+    /// scale the rows of a group alike.
+    pub fn level(&mut self, decoupled: &[usize], group: usize) {
+        let size = self.schur.len().isqrt();
+        for &i in decoupled {
+            let first = i - i % group;
+            let others = (first..first + group).filter(|j| decoupled.binary_search(j).is_err());
+            let stiffest = others.map(|j| self.schur[j + size * j]).fold(0.0, f64::max);
+            if stiffest > 0.0 {
+                self.schur[i + size * i] = stiffest;
+            }
+        }
+    }
+
     /// The right sides `(a, c)`, one behind the other, after elimination of the first rows: of each one
     /// `c - B A⁻¹ a`; `None` where `goes_on` says no.
     pub fn condense(&self, rhs: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {

@@ -6,7 +6,8 @@
 //! `W = [T P]` is one sparse matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
 //!
 //! A component of `d` that supports fix moves nothing. It gets a spring to nothing, as stiff as the
-//! stiffest entry of `K`: a further row of `K` and of `W`, so that `Tᵀ K T` has a decoupled row for it.
+//! stiffest entry of `K`: a further row of `K` and of `W`, so that `Tᵀ K T` has a decoupled row for it. Where `Tᵀ K T` is
+//! condensed the spring becomes as stiff as the other components of its pair.
 
 use super::supports::FixedComponent;
 use crate::linalg::sparse_matrix::{

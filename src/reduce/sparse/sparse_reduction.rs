@@ -96,8 +96,14 @@ impl SparseReduction {
         let (rank, workers) = (rank.as_deref(), control.workers);
         let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, workers };
         let choice = (control.full_space, dependent.is_none());
-        let engine = Engine::new(transformed, &parts, choice, &mut asked)
+        let mut engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
+        let mut fixed_components: Vec<usize> =
+            supports.iter().map(|support| support.component).collect();
+        fixed_components.sort_unstable();
+        if let (Engine::Condensed(schur), None) = (&mut engine, &dependent) {
+            schur.level(&fixed_components, pairs.dim);
+        }
         Ok(SparseReduction {
             dim: pairs.dim,
             fixed_count: fixed.len(),
@@ -105,7 +111,7 @@ impl SparseReduction {
             of_fixed,
             contact_forces,
             frames: frames.iter().flat_map(|frame| frame.directions().flatten().copied()).collect(),
-            fixed_components: supports.iter().map(|support| support.component).collect(),
+            fixed_components,
             supports,
             dependent,
             engine,
