@@ -27,6 +27,11 @@ unset SIGNORINI_LIBRARY
 for name in results shapes mistakes solutions operators progress surfaces meshes zones; do
     "$python" -B "$root/tests/python/$name.py"
 done
+for part in loaded_pin cylinder pin_in_lug shrink_fit dovetail; do
+    echo "scripts: c_examples/parts/$part.py"
+    "$python" -B "$root/c_examples/parts/$part.py" "$work"
+    [ -s "$work/$part.vtu" ]
+done
 "$python" -B "$root/tests/python/files.py" "$work"
 "$python" -B "$root/tests/python/library.py" "${CC:-cc}" "$work"
 if "$python" -c 'import hypothesis' >/dev/null 2>&1; then
