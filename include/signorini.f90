@@ -130,6 +130,8 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_FACES = 3
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CONE = 4
+    integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_TORUS = 5
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_CONTACT = 0
     integer(c_int32_t), parameter :: SIGNORINI_PROBLEM_LCP = 1
     integer(c_int32_t), parameter :: SIGNORINI_VERSION_MAJOR = 0
@@ -286,7 +288,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 56 + 5 * address_bytes
+        integer(c_int32_t) :: struct_size = 72 + 7 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
@@ -302,6 +304,10 @@ module signorini
         real(c_double) :: time_limit = 0
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
+        type(c_ptr) :: slave_shape = c_null_ptr
+        type(c_ptr) :: master_shape = c_null_ptr
+        real(c_double) :: close_within = 0
+        real(c_double) :: clearance = 0
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
@@ -1667,8 +1673,9 @@ contains
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
-    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, time_limit, progress and user; an
-    ! argument that is present comes before it. Its lists and index_base are not read.
+    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, slave_shape and the fields after it,
+    ! time_limit, progress and user; an argument that is present comes before it. Its lists and index_base
+    ! are not read.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
             dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self

@@ -34,12 +34,14 @@ extern "C" {
  */
 #define SIGNORINI_PAIRING_NODE_TO_SURFACE 1
 
-/* Kind of a rigid obstacle. */
+/* Kind of a rigid obstacle, or of the true shape of a side. */
 #define SIGNORINI_OBSTACLE_PLANE 0    /**< A half space, in 2D a half plane. */
 #define SIGNORINI_OBSTACLE_CYLINDER 1 /**< A round bar of any length, 3D only. */
 #define SIGNORINI_OBSTACLE_SPHERE 2   /**< A ball, in 2D a disc. */
 /** A mesh of faces, such as the triangles of a drawing; in 2D lines. */
 #define SIGNORINI_OBSTACLE_FACES 3
+#define SIGNORINI_OBSTACLE_CONE 4     /**< A cone that widens from its apex without end, 3D only. */
+#define SIGNORINI_OBSTACLE_TORUS 5    /**< A torus, 3D only. */
 
 #ifdef SIGNORINI_UNSTABLE /* These numbers may still change. */
 
@@ -95,15 +97,22 @@ struct signorini_faces {
     const int64_t *nodes; /**< The nodes, counted from index_base. */
 };
 
-/** A surface that does not deform. Unused numbers are not read. */
+/** A surface that does not deform, or the true shape of a side. Unused numbers are not read. */
 struct signorini_obstacle {
     uint32_t struct_size;      /**< sizeof(signorini_obstacle). */
     int32_t kind;              /**< SIGNORINI_OBSTACLE_... */
-    /** A point of the plane or of the cylinder's axis, or the centre; in 2D two entries. */
+    /**
+     * A point of the plane or of the cylinder's axis, or the centre; in 2D two entries. Cone: the
+     * middle of one of its circles.
+     */
     double point[3];
-    /** Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. */
+    /**
+     * Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. Cone: from point
+     * to the apex. Torus: its axis, as long as the radius of the circle in the middle of its tube.
+     */
     double direction[3];
-    double radius;             /**< Radius of the cylinder or the sphere. */
+    /** Radius of the cylinder, of the sphere, of that circle of the cone, or of the torus' tube. */
+    double radius;
     int32_t hollow;            /**< Nonzero: the body is inside, as in a bore or a bowl. */
     int32_t reserved;          /**< 0. */
     int64_t nodes;             /**< Faces: number of nodes of the obstacle's own mesh. */
@@ -120,7 +129,7 @@ struct signorini_obstacle {
  * like.
  */
 struct signorini_surface_settings {
-    uint32_t struct_size;         /**< sizeof(signorini_surface_settings). */
+    uint32_t struct_size;                   /**< sizeof(signorini_surface_settings). */
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
@@ -148,9 +157,9 @@ struct signorini_surface_settings {
      */
     int64_t symmetry_planes;
     const int32_t *symmetry_axes; /**< The axis across each plane, counted from index_base. */
-    const double *symmetry_at;    /**< Where each plane stands along its axis; length. */
-    int32_t normals;              /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
-    int32_t rims;                 /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
+    const double *symmetry_at;              /**< Where each plane stands along its axis; length. */
+    int32_t normals; /**< SIGNORINI_NORMALS_...; default SIGNORINI_NORMALS_AVERAGED. */
+    int32_t rims;                           /**< SIGNORINI_RIMS_...; default SIGNORINI_RIMS_FOLD. */
     /**
      * Nonzero: lines in 2D are meridians of bodies of revolution about the axis x = 0, with the
      * radius x >= 0. Areas are those of whole rings, with the factor 2 pi r: hand over stiffness
@@ -158,11 +167,25 @@ struct signorini_surface_settings {
      * Default 0.
      */
     int32_t axisymmetric;
-    int32_t reserved;             /**< 0. */
+    int32_t reserved;                       /**< 0. */
     double time_limit; /**< Most seconds of wall time; default 0, and infinity: no limit. */
     /** Progress callback as in signorini_settings, called often; default NULL. */
     signorini_progress_fn progress;
-    void *user;                   /**< First argument of progress; default NULL. */
+    void *user;                             /**< First argument of progress; default NULL. */
+    /**
+     * The true shape of the slave side, of which its faces are facets, for dual mortar; default
+     * NULL: its faces. Gaps are measured to it, and rows stay those of the faces. These tell on
+     * which side the body is: hollow has no say.
+     */
+    const signorini_obstacle *slave_shape;
+    const signorini_obstacle *master_shape; /**< That of the master side. */
+    /** Gaps of at most this size, open or overlapping, become zero; length; default 0: none. */
+    double close_within;
+    /**
+     * What is added to every gap then: a clearance, or if it is negative an interference, such as
+     * half the thicknesses of shells; length; default 0.
+     */
+    double clearance;
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */
@@ -207,7 +230,8 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
  * @param dim,nodes,coordinates  as for signorini_surface_pair
  * @param slave     the faces that may touch the obstacle
  * @param obstacle  the obstacle
- * @param settings  NULL: the defaults; pairing, normals, rims and symmetry_... are for faces alone
+ * @param settings  NULL: the defaults; pairing, normals, rims, symmetry_... and ..._shape are for
+ *                  faces alone
  * @param contact   out: the pairs; NULL unless 0 is returned
  */
 int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double *coordinates,

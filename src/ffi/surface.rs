@@ -13,6 +13,10 @@ pub const SIGNORINI_OBSTACLE_CYLINDER: i32 = 1;
 pub const SIGNORINI_OBSTACLE_SPHERE: i32 = 2;
 /// A mesh of faces, such as the triangles of a drawing; in 2D lines.
 pub const SIGNORINI_OBSTACLE_FACES: i32 = 3;
+/// A cone that widens from its apex without end, 3D only.
+pub const SIGNORINI_OBSTACLE_CONE: i32 = 4;
+/// A torus, 3D only.
+pub const SIGNORINI_OBSTACLE_TORUS: i32 = 5;
 
 /// Faces of a surface as lists of nodes: in 2D lines of 2 or 3 nodes; in 3D triangles of 3 or 6 and
 /// quadrilaterals of 4, 8 or 9 nodes, in any mixture. Corners come first, in order around the face,
@@ -34,18 +38,20 @@ pub struct SignoriniFaces {
     pub nodes: *const i64,
 }
 
-/// A surface that does not deform. Unused numbers are not read.
+/// A surface that does not deform, or the true shape of a side. Unused numbers are not read.
 #[repr(C)]
 pub struct SignoriniObstacle {
     /// sizeof(signorini_obstacle).
     pub struct_size: u32,
     /// SIGNORINI_OBSTACLE_...
     pub kind: i32,
-    /// A point of the plane or of the cylinder's axis, or the centre; in 2D two entries.
+    /// A point of the plane or of the cylinder's axis, or the centre; in 2D two entries. Cone: the
+    /// middle of one of its circles.
     pub point: [f64; 3],
-    /// Plane: the direction out of the obstacle. Cylinder: its axis. Of any length.
+    /// Plane: the direction out of the obstacle. Cylinder: its axis. Of any length. Cone: from point
+    /// to the apex. Torus: its axis, as long as the radius of the circle in the middle of its tube.
     pub direction: [f64; 3],
-    /// Radius of the cylinder or the sphere.
+    /// Radius of the cylinder, of the sphere, of that circle of the cone, or of the torus' tube.
     pub radius: f64,
     /// Nonzero: the body is inside, as in a bore or a bowl.
     pub hollow: i32,
@@ -121,24 +127,43 @@ impl SignoriniObstacle {
         if given.kind == SIGNORINI_OBSTACLE_FACES {
             return given.mesh(arrays, position, dim, base);
         }
+        Ok(Rigid::Shape(given.shape((position, "obstacle"), dim)?))
+    }
+
+    /// A shape that is no mesh.
+    pub(super) fn shape(
+        &self,
+        (position, name): (i32, &str),
+        dim: usize,
+    ) -> Result<Obstacle, Failure> {
         let in_dim = |mut v: [f64; 3]| {
             v[dim..].fill(0.0);
             v
         };
-        let (point, direction) = (in_dim(given.point), in_dim(given.direction));
-        let (radius, hollow) = (given.radius, given.hollow != 0);
-        let shape = match given.kind {
+        let (point, direction) = (in_dim(self.point), in_dim(self.direction));
+        let (radius, hollow) = (self.radius, self.hollow != 0);
+        let shape = match self.kind {
             SIGNORINI_OBSTACLE_PLANE => Obstacle::Plane { point, outward: direction },
             SIGNORINI_OBSTACLE_CYLINDER => {
                 Obstacle::Cylinder { point, axis: direction, radius, hollow }
             }
             SIGNORINI_OBSTACLE_SPHERE => Obstacle::Sphere { centre: point, radius, hollow },
+            SIGNORINI_OBSTACLE_CONE => Obstacle::Cone { point, to_apex: direction, radius, hollow },
+            SIGNORINI_OBSTACLE_TORUS => {
+                let ring = direction.iter().fold(0.0, |length: f64, x| length.hypot(*x));
+                let (centre, axis) = (point, direction);
+                Obstacle::Torus { centre, axis, radius, ring, hollow }
+            }
+            SIGNORINI_OBSTACLE_FACES => {
+                let message = format!("{name}: faces are no shape that gaps are measured to");
+                return Err(Failure::argument(position, message));
+            }
             other => {
-                let message = format!("obstacle: there is no kind {other}");
+                let message = format!("{name}: there is no kind {other}");
                 return Err(Failure::argument(position, message));
             }
         };
-        Ok(Rigid::Shape(shape))
+        Ok(shape)
     }
 
     fn mesh<'h>(

@@ -8,9 +8,10 @@ use super::numbers::{Numbered, numbers};
 use super::settings::{SignoriniProgressFn, callback};
 use super::sparse::shifted;
 use super::structures::{self, Structure, chosen};
+use super::surface::SignoriniObstacle;
 use crate::monitor::{Monitor, ProgressFn};
 use crate::settings::Settings;
-use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane};
+use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
 pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
@@ -83,6 +84,17 @@ pub struct SignoriniSurfaceSettings {
     pub progress: SignoriniProgressFn,
     /// First argument of progress; default NULL.
     pub user: *mut c_void,
+    /// The true shape of the slave side, of which its faces are facets, for dual mortar; default
+    /// NULL: its faces. Gaps are measured to it, and rows stay those of the faces. These tell on
+    /// which side the body is: hollow has no say.
+    pub slave_shape: *const SignoriniObstacle,
+    /// That of the master side.
+    pub master_shape: *const SignoriniObstacle,
+    /// Gaps of at most this size, open or overlapping, become zero; length; default 0: none.
+    pub close_within: f64,
+    /// What is added to every gap then: a clearance, or if it is negative an interference, such as
+    /// half the thicknesses of shells; length; default 0.
+    pub clearance: f64,
 }
 
 /// Settings of a pairing as the host gave them.
@@ -151,8 +163,22 @@ impl SignoriniSurfaceSettings {
         let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
         let symmetry = given.symmetry(arrays, position)?;
         let axisymmetric = given.axisymmetric != 0;
-        let settings =
-            SurfaceSettings { pairing, search_distance, symmetry, normals, rims, axisymmetric };
+        let shapes = [
+            shape(arrays, (position, "settings: slave_shape"), dim, given.slave_shape)?,
+            shape(arrays, (position, "settings: master_shape"), dim, given.master_shape)?,
+        ];
+        let SignoriniSurfaceSettings { close_within, clearance, .. } = given;
+        let settings = SurfaceSettings {
+            pairing,
+            search_distance,
+            symmetry,
+            normals,
+            rims,
+            axisymmetric,
+            shapes,
+            close_within,
+            clearance,
+        };
         structures::check_reserved(position, "settings", given.reserved)?;
         let SignoriniSurfaceSettings { time_limit, progress, user, .. } = given;
         // Written so that NaN is refused.
@@ -183,6 +209,20 @@ impl SignoriniSurfaceSettings {
         };
         axes.iter().zip(places).map(plane).collect()
     }
+}
+
+/// The true shape of a side.
+fn shape(
+    arrays: &mut Arrays<'_>,
+    (position, name): (i32, &str),
+    dim: usize,
+    pointer: *const SignoriniObstacle,
+) -> Result<TrueShape, Failure> {
+    if pointer.is_null() {
+        return Ok(TrueShape::Facets);
+    }
+    let given = arrays.whole(position, name, pointer)?;
+    Ok(TrueShape::Exact(given.shape((position, name), dim)?))
 }
 
 numbers! {

@@ -77,6 +77,11 @@ impl<'a> Side<'a> {
         self.scale * length
     }
 
+    /// What lengths of the host are multiplied by.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
     /// The host's coordinates of all nodes of faces.
     pub(super) fn lengths(&self) -> impl Iterator<Item = f64> {
         let of_node = |&node: &usize| &self.coordinates[self.dim * node..self.dim * (node + 1)];

@@ -22,6 +22,7 @@ use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
+use super::true_shape::TrueSides;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
@@ -35,6 +36,7 @@ struct CoveredFace {
 /// The memory that the search uses from face to face.
 struct Search<'a> {
     candidates: Candidates<'a>,
+    shapes: Option<TrueSides<'a>>,
     overlaps: Overlaps,
     polynomials: Polynomials,
 }
@@ -44,11 +46,11 @@ struct Search<'a> {
 /// # Errors
 /// Master faces that lie over each other; faces that are turned over in the projection; normals that
 /// cancel at a slave node, or that are across a plane of symmetry.
-pub(super) fn pairs(
-    [slave, master]: [&Side<'_>; 2],
+pub(super) fn pairs<'a>(
+    [slave, master]: [&'a Side<'a>; 2],
     dim: usize,
     planes: &OnPlanes,
-    candidates: Candidates<'_>,
+    candidates: Candidates<'a>,
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
@@ -59,7 +61,8 @@ pub(super) fn pairs(
     };
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let SurfaceSettings { normals, rims, .. } = *settings;
-    let mut search = Search { candidates, overlaps, polynomials };
+    let shapes = TrueSides::new([slave, master], dim, &settings.shapes)?;
+    let mut search = Search { candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
         watch.step()?;
@@ -71,7 +74,7 @@ pub(super) fn pairs(
         }
         faces.push(covered);
     }
-    let Search { candidates, .. } = search;
+    let Search { candidates, shapes, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;
     let mut rows = rows(slave, &faces, planes, watch)?;
     report.folded = rims::fold(rims, &mut rows, (slave, dim, planes));
@@ -83,14 +86,18 @@ pub(super) fn pairs(
         .into_iter()
         .map(|(node, row)| {
             watch.goes_on()?;
-            let area = row.area;
+            let (area, gap) = (row.area, row.gap / row.area);
             let normal = match &averaged {
                 Some(normals) => normals[&node],
                 None => planes.turned(node, normal_of_faces(node, &row)?),
             };
             let weights = row.into_weights();
             let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-            planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
+            let pair = SurfacePair::new(dim, (node, area), weights, normal, points);
+            planes.hold(match &shapes {
+                Some(shapes) => pair.with_gap(gap, shapes.size()),
+                None => pair,
+            })
         })
         .collect::<Result<_, Error>>()?;
     watch.goes_on()?;
@@ -119,7 +126,7 @@ fn cover(
     let normal = middle_normal(face);
     let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
     let in_plane = SlaveFace::new(face, plane);
-    let Search { candidates, overlaps, polynomials } = search;
+    let Search { candidates, shapes, overlaps, polynomials } = search;
     overlaps.points.clear();
     let reach = candidates.reach;
     let mut parts: Vec<Opposite<'_>> = Vec::new();
@@ -161,7 +168,10 @@ fn cover(
         );
         return Err(slave.refuse(at, &what));
     }
-    let covered = polynomials.project(face.kind, &overlaps.points, &parts);
+    let mut covered = polynomials.project(face.kind, &overlaps.points, &parts);
+    if let Some(shapes) = shapes {
+        covered.gaps = polynomials.fit(&shapes.gaps(face, &overlaps.points, &parts));
+    }
     let wholly = cover >= 1.0 - SAME_COVER && !planes.touch_axis(face);
     Ok(Some(CoveredFace { covered, wholly }))
 }
@@ -210,7 +220,7 @@ fn rows(
             let basis = edges.basis(face.kind, face.nodes, *wholly);
             let integrals = [covered.integrals, face.integrals()];
             let on = (face.nodes, &basis);
-            add_face(&mut rows, on, integrals, covered.weights(), &at_nodes(&face));
+            add_face(&mut rows, on, integrals, covered.weights(), (&at_nodes(&face), covered.gaps));
         }
     }
     for (at, _) in faces.iter().enumerate().filter(|(_, covered)| covered.is_none()) {

@@ -68,7 +68,7 @@ pub(super) fn pair_sides(
             node_to_surface::pairs(sides, dim, &planes, candidates, settings.normals, watch)
         }
     };
-    unit.of_host(found?, settings.axisymmetric)
+    unit.of_host(found?, settings)
 }
 
 /// How far masters are looked for, and how far away any face may be.

@@ -152,6 +152,14 @@ impl SurfacePair {
     }
 }
 
+impl SurfacePair {
+    /// The pair with a gap between shapes of this size beside its own place.
+    pub(super) fn with_gap(self, gap: f64, size: f64) -> SurfacePair {
+        let size = size + Vector3::from(self.point).lp_norm(1);
+        SurfacePair { gap: without_rounding(gap, size), ..self }
+    }
+}
+
 /// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
 pub(super) fn without_rounding(distance: f64, size: f64) -> f64 {
     if distance.abs() <= ROUNDING * size { 0.0 } else { distance }

@@ -43,6 +43,8 @@ pub(super) struct Covered {
     masters: Vec<usize>,
     /// For each master the coefficients of its shape functions at the slave's nodes.
     coefficients: Vec<f64>,
+    /// Coefficients of the gap between true shapes at the slave's nodes; zero if the sides are their faces.
+    pub(super) gaps: Values,
 }
 
 impl Covered {
@@ -172,6 +174,16 @@ impl Polynomials {
         }
     }
 
+    /// The coefficients at the slave's nodes of a field with these values at the points of the last face.
+    pub(super) fn fit(&self, values: &[f64]) -> Values {
+        let mut coefficients = [0.0; MOST_NODES];
+        for (at_nodes, weighted) in self.at_nodes.iter().zip(self.weighted.chunks(self.points)) {
+            let moment = dot(weighted, values);
+            coefficients.iter_mut().zip(at_nodes).for_each(|(sum, p)| *sum += moment * p);
+        }
+        coefficients
+    }
+
     /// Integrates over the points of a slave face that belong to master faces.
     pub(super) fn project(
         &mut self,
@@ -186,8 +198,13 @@ impl Polynomials {
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += point.weight * value);
         }
         let slaves = slave.nodes();
-        let mut covered =
-            Covered { integrals, slaves, masters: Vec::new(), coefficients: Vec::new() };
+        let mut covered = Covered {
+            integrals,
+            slaves,
+            gaps: [0.0; MOST_NODES],
+            masters: Vec::new(),
+            coefficients: Vec::new(),
+        };
         for opposite in parts {
             self.add_moments(opposite, points, &mut covered);
         }

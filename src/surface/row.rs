@@ -21,6 +21,8 @@ pub(super) struct Row {
     pub(super) masters: Vec<Weight>,
     /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree.
     pub(super) normal: Vector3,
+    /// `D_j` times the gap between true shapes; 0 if the sides are their faces.
+    pub(super) gap: f64,
 }
 
 impl Row {
@@ -34,6 +36,7 @@ impl Row {
         self.area += other.area;
         self.whole += other.whole;
         self.normal += other.normal;
+        self.gap += other.gap;
         self.slaves.extend(other.slaves);
         self.masters.extend(other.masters);
     }
@@ -46,19 +49,21 @@ impl Row {
 }
 
 /// Adds to the rows of a face's nodes what it has of them. `integrals` are those of its shape functions over the covered
-/// part and over all of it, `masters` the nodes opposite with the coefficients of their shape functions at its nodes.
+/// part and over all of it, `masters` the nodes opposite with the coefficients of their shape functions at its nodes, `gaps` the
+/// coefficients of the gap.
 pub(super) fn add_face(
     rows: &mut BTreeMap<usize, Row>,
     (nodes, basis): (&[usize], &Basis),
     integrals: [Values; 2],
     masters: impl Iterator<Item = (usize, Values)>,
-    normals: &[Vector3; MOST_NODES],
+    (normals, gaps): (&[Vector3; MOST_NODES], Values),
 ) {
     let [areas, whole] = integrals.map(|integrals| basis.functions(integrals));
     let control = |(node, values)| (node, basis.control_values(values));
     let masters: Vec<(usize, Values)> = masters.map(control).collect();
     let own = nodes.iter().copied().zip(unit_values()).map(control);
     let own: Vec<(usize, Values)> = own.collect();
+    let gaps = basis.control_values(gaps);
     for (j, &node) in nodes.iter().enumerate() {
         let scaled = |(node, values): &(usize, Values)| (*node, areas[j] * values[j]);
         let row = rows.entry(node).or_default();
@@ -68,6 +73,7 @@ pub(super) fn add_face(
         row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
         row.masters.extend(masters.iter().map(scaled));
         row.normal += areas[j] * normals[j];
+        row.gap += areas[j] * gaps[j];
     }
 }
 

@@ -1,5 +1,6 @@
 //! Settings of the pairing.
 
+use super::exact_shape::Obstacle;
 use super::symmetry::SymmetryPlane;
 use crate::error::{Argument, Error};
 
@@ -44,6 +45,16 @@ pub enum Rims {
     Keep,
 }
 
+/// The true shape of a side, to which gaps are measured. Rows, areas and normals are those of its faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TrueShape {
+    /// Its faces.
+    #[default]
+    Facets,
+    /// A shape near all its nodes. Its faces tell where the body is: `hollow` and `outward` have no say.
+    Exact(Obstacle),
+}
+
 /// Settings of the pairing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceSettings {
@@ -64,9 +75,22 @@ pub struct SurfaceSettings {
     /// `x >= 0`. Areas are those of whole rings, `2 π ∫ r ds`, and so must be stiffness, loads and forces. The axis
     /// is a plane of symmetry without being named.
     pub axisymmetric: bool,
+    /// The true shapes of slave and master. Of dual mortar.
+    pub shapes: [TrueShape; 2],
+    /// Gaps of at most this size, open or overlapping, become zero. 0: none.
+    pub close_within: f64,
+    /// What is added to every gap then: a clearance, or an interference if it is negative. Half the thicknesses of
+    /// shells are an interference.
+    pub clearance: f64,
 }
 
 impl SurfaceSettings {
+    /// The gap of a pair from the measured one.
+    pub(super) fn gap(&self, measured: f64) -> f64 {
+        let closed = measured.abs() <= self.close_within;
+        self.clearance + if closed { 0.0 } else { measured }
+    }
+
     /// # Errors
     /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
     /// space.
@@ -78,6 +102,17 @@ impl SurfaceSettings {
         }
         if self.axisymmetric && dim == 3 {
             let message = "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions";
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+        let (within, shift) = (self.close_within, self.clearance);
+        if !(within >= 0.0 && shift.is_finite()) {
+            let message = format!(
+                "close_within is {within}, it must not be negative; clearance is {shift}, it must be finite"
+            );
+            return Err(Error::invalid(Argument::Settings, message));
+        }
+        if self.pairing == Pairing::NodeToSurface && self.shapes != [TrueShape::Facets; 2] {
+            let message = "true shapes are for dual mortar: nodes against surfaces are measured where they stand";
             return Err(Error::invalid(Argument::Settings, message));
         }
         if self.pairing == Pairing::NodeToSurface && self.rims != Rims::Fold {

@@ -2,6 +2,7 @@
 //! Scaling by it is exact, so that rows do not depend on the host's unit, and gaps scale with it.
 
 use super::pairs::SurfacePairs;
+use super::settings::SurfaceSettings;
 use crate::error::{Argument, Error, index};
 use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 
@@ -23,22 +24,23 @@ impl Unit {
         Unit { inside: times_power_of_two(1.0, -exponent), exponent }
     }
 
-    /// Pairs in the host's unit.
+    /// Pairs in the host's unit, with the gaps that the settings make of the measured ones.
     ///
     /// # Errors
     /// Areas that no number holds.
     pub(super) fn of_host(
         &self,
         mut found: SurfacePairs,
-        axisymmetric: bool,
+        settings: &SurfaceSettings,
     ) -> Result<SurfacePairs, Error> {
-        found.axisymmetric = axisymmetric;
+        found.axisymmetric = settings.axisymmetric;
         let powers = if found.dim == 2 && !found.axisymmetric { 1 } else { 2 };
         let length = |length: &mut f64| *length = times_power_of_two(*length, self.exponent);
         let area = |area: &mut f64| *area = times_power_of_two(*area, powers * self.exponent);
         for pair in &mut found.pairs {
             pair.point.iter_mut().for_each(length);
             length(&mut pair.gap);
+            pair.gap = settings.gap(pair.gap);
             area(&mut pair.area);
             if !pair.area.is_normal() {
                 let message = format!(

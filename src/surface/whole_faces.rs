@@ -27,7 +27,13 @@ fn whole_rows(
         watch.goes_on()?;
         let basis = edges.basis(face.kind, face.nodes, true);
         let (on, integrals) = ((face.nodes, &basis), [face.integrals(); 2]);
-        add_face(&mut rows, on, integrals, std::iter::empty(), &Default::default());
+        add_face(
+            &mut rows,
+            on,
+            integrals,
+            std::iter::empty(),
+            (&Default::default(), Default::default()),
+        );
     }
     Ok(rows)
 }

@@ -81,6 +81,8 @@ VALUE(SIGNORINI_RIMS_KEEP, 1);
 VALUE(SIGNORINI_OBSTACLE_PLANE, 0);
 VALUE(SIGNORINI_OBSTACLE_CYLINDER, 1);
 VALUE(SIGNORINI_OBSTACLE_SPHERE, 2);
+VALUE(SIGNORINI_OBSTACLE_CONE, 4);
+VALUE(SIGNORINI_OBSTACLE_TORUS, 5);
 VALUE(SIGNORINI_OBSTACLE_FACES, 3);
 
 /* 64-bit pointers, doubles and 64-bit integers aligned to their size. */
@@ -206,7 +208,7 @@ FIELD(signorini_operator, inverse, signorini_product_fn, 24);
 FIELD(signorini_operator, held, signorini_held_fn, 32);
 FIELD(signorini_operator, units, double *, 40);
 FIELD(signorini_operator, user, void *, 48);
-SIZE(signorini_surface_settings, 96);
+SIZE(signorini_surface_settings, 128);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);
 FIELD(signorini_surface_settings, search_distance, double, 8);
@@ -223,6 +225,10 @@ FIELD(signorini_surface_settings, reserved, int32_t, 68);
 FIELD(signorini_surface_settings, time_limit, double, 72);
 FIELD(signorini_surface_settings, progress, signorini_progress_fn, 80);
 FIELD(signorini_surface_settings, user, void *, 88);
+FIELD(signorini_surface_settings, slave_shape, signorini_obstacle *, 96);
+FIELD(signorini_surface_settings, master_shape, signorini_obstacle *, 104);
+FIELD(signorini_surface_settings, close_within, double, 112);
+FIELD(signorini_surface_settings, clearance, double, 120);
 
 SIZE(signorini_surface_data, 216);
 FIELD(signorini_surface_data, struct_size, uint32_t, 0);

@@ -354,15 +354,59 @@ static void obstacles(void)
     CHECK(surface_data(contact).pairs == 0);
     signorini_surface_free(contact);
 
+    settings.clearance = -0.5;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, &settings, &contact), 0);
+    CHECK_NEAR(surface_data(contact).gaps[0], 0.3 - 0.5);
+    signorini_surface_free(contact);
+    settings.clearance = NAN;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, &settings, &contact), -6);
+
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, NULL, NULL, &contact), -5);
     disc.radius = -1;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "radius is -1");
     disc.kind = SIGNORINI_OBSTACLE_CYLINDER;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
-    disc.kind = 4;
+    disc.kind = 9;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
-    CHECK_TEXT(signorini_last_error(), "there is no kind 4");
+    CHECK_TEXT(signorini_last_error(), "there is no kind 9");
+}
+
+/* Two lines as facets of circles about one centre: the difference of the radii. */
+static void true_shapes(void)
+{
+    /* The lower body is inside of the circle of the radius 5, the upper one outside of that of 5.25. */
+    const double x[] = {-3, 4, 3, 4, -4.2, 3.15, 4.2, 3.15};
+    const int64_t inner[2] = {1, 0}, outer[2] = {2, 3};
+    signorini_faces slave = lines(1, inner), master = lines(1, outer);
+    signorini_surface_settings settings = defaults();
+    signorini_obstacle circles[2];
+    signorini_surface_pairs *contact;
+    for (int side = 0; side < 2; side++)
+        circles[side] = (signorini_obstacle){.struct_size = sizeof *circles, .radius = 5 + 0.25 * side,
+                                             .kind = SIGNORINI_OBSTACLE_SPHERE, .point = {0, 0, NAN}};
+    settings.slave_shape = &circles[0];
+    settings.master_shape = &circles[1];
+    CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), 0);
+    CHECK(surface_data(contact).pairs == 2);
+    CHECK_NEAR(surface_data(contact).gaps[0], 0.25);
+    signorini_surface_free(contact);
+    settings.close_within = 0.3;
+    settings.clearance = 0.125;
+    CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), 0);
+    CHECK(surface_data(contact).gaps[1] == 0.125);
+    signorini_surface_free(contact);
+    circles[1].radius = 50;
+    CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), -6);
+    CHECK_TEXT(signorini_last_error(), "shape of the master: node 2 of face 0 is further away");
+    circles[1].kind = SIGNORINI_OBSTACLE_FACES;
+    CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), -6);
+    CHECK_TEXT(signorini_last_error(), "master_shape: faces are no shape");
+    circles[1].kind = SIGNORINI_OBSTACLE_SPHERE;
+    settings.master_shape = NULL;
+    settings.close_within = -1;
+    CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), -6);
+    CHECK_TEXT(signorini_last_error(), "close_within is -1");
 }
 
 /* The lower line as a rigid one, with numbers of its own: the gaps of the two lines, no masters, and
@@ -566,6 +610,7 @@ int main(void)
     choices();
     obstacles();
     limits_and_rings();
+    true_shapes();
     rigid_faces();
     never_meet();
     refusals();

@@ -117,6 +117,7 @@ contains
         integer, parameter :: sides(2, 3) = reshape([1, 2, 2, 3, 3, 4], [2, 3])
         integer, parameter :: floor(2, 1) = reshape([6, 5], [2, 1])
         type(signorini_surface_settings) :: limits
+        type(signorini_obstacle), target :: plane
         integer :: pairing, rims
         do pairing = SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE
             call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
@@ -142,6 +143,14 @@ contains
         call surfaces%pair(reshape([0._dp, 0._dp, 1._dp, 0._dp, 0._dp, 0._dp, 1._dp, 0._dp], [2, 4]), &
             sides(:, 1:1), reshape([4, 3], [2, 1]), info, message=message, settings=limits)
         call expect('rings', info == 0 .and. abs(sum(surfaces%area) - acos(-1._dp)) < 1d-14)
+        limits%axisymmetric = 0
+        limits%clearance = -0.5_dp
+        plane = signorini_obstacle(kind=SIGNORINI_OBSTACLE_PLANE, point=[7._dp, 0.2_dp, 0._dp], &
+            direction=[0._dp, 1._dp, 0._dp])
+        limits%slave_shape = c_loc(plane)
+        call surfaces%pair(reshape([0._dp, 0.1_dp, 1._dp, 0.1_dp, -1._dp, 0._dp, 2._dp, 0._dp], [2, 4]), &
+            reshape([1, 2], [2, 1]), reshape([4, 3], [2, 1]), info, message=message, settings=limits)
+        call expect('true shape', info == 0 .and. all(abs(surfaces%gap - (0.2_dp - 0.5_dp)) < 1d-14))
         call surfaces%pair(around, sides, floor, info, normals=2, message=message)
         call expect('normals', info == -11 .and. message == 'there is no choice of normals 2')
         call surfaces%pair(around, sides, floor, info, rims=-1, message=message)

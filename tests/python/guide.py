@@ -169,7 +169,8 @@ class PressFit(unittest.TestCase):
         sides = (outside, inside + n) if shaft_is_slave else (inside + n, outside)
         columns, rows = np.nonzero(K)
         sparse = (K[rows, columns], rows, np.searchsorted(columns, np.arange(len(K) + 1)))
-        contact, result = press_fit(at, sparse, *sides, fixed, interference)
+        contact, result = press_fit(at, sparse, *sides, fixed, interference,
+                                    signorini.Sphere([0, 0], self.RADIUS))
         self.assertEqual(result.status, signorini.Status.SOLVED)
         return -result.F[:, 0] / contact.areas
 

@@ -67,7 +67,7 @@ class Pairs(unittest.TestCase):
             slave = SLAVE if gap == 0.3 else [[1, 0]]
             contact = signorini.pair_obstacle(below, slave, obstacle)
             np.testing.assert_allclose(contact.gaps, gap)  # (0.5, 1.2) is 1.3 from the centre
-        with self.assertRaisesRegex(TypeError, "give a Plane, a Sphere, a Cylinder or Rigid"):
+        with self.assertRaisesRegex(TypeError, "give a Plane, Sphere, Cylinder, Cone"):
             signorini.pair_obstacle(NODES, SLAVE, "floor")
 
     def test_a_rigid_mesh(self):
@@ -122,6 +122,36 @@ class Pairs(unittest.TestCase):
         disc = np.array([[0.0, 0], [1, 0], [0, 0], [1, 0]])
         contact = signorini.pair_surfaces(disc, [[0, 1]], [[3, 2]], axisymmetric=True)
         np.testing.assert_allclose(contact.areas, np.pi * np.array([1, 2]) / 3)
+
+    def test_true_shapes(self):
+        """Arcs of one division of 60 degrees, the outer one wider, at the radii 1 and 1.01; spheres."""
+        circle = signorini.Sphere([0, 0], 1.0)
+        for kind, dim in (("arcs", 2), ("cylinders", 3)):
+            inner, outer = (np.array([[-np.sin(half), np.cos(half)], [np.sin(half), np.cos(half)]])
+                            for half in np.radians([30, 40]))
+            nodes = np.concatenate([inner, 1.01 * outer])
+            slave, master, shapes = [[1, 0]], [[2, 3]], (circle, circle._replace(radius=1.01))
+            if dim == 3:
+                nodes = np.array([[x, y, z] for x, y in nodes for z in (0.0, 1.0)])
+                slave, master = [[2, 0, 1, 3]], [[4, 6, 7, 5]]
+                shapes = [signorini.Cylinder([0, 0, 5], [0, 0, 1], radius) for radius in (1.0, 1.01)]
+            found = [signorini.pair_surfaces(nodes, slave, master, slave_shape=slave_shape,
+                                             master_shape=master_shape, close_within=within, clearance=-0.5)
+                     for slave_shape, master_shape, within in ((*shapes, 0), (None, None, 0), (*shapes, 0.1))]
+            for contact, gap in zip(found, (0.01, 1.01 * np.cos(np.radians(40)) - np.cos(np.radians(30)), 0.0)):
+                np.testing.assert_allclose(contact.gaps, [gap - 0.5] * 2 ** (dim - 1), atol=1e-12, err_msg=kind)
+        with self.assertRaisesRegex(TypeError, "is no shape"):
+            signorini.pair_surfaces(nodes, slave, master, slave_shape=3.0)
+
+    def test_cone_and_torus(self):
+        """Above a cone of 45 degrees whose apex is the origin, and beside a ring of the tube 0.5."""
+        nodes, face = np.array([[1.0, 0, 0], [2, 0, 0], [2, 1, 0]]), [[0, 2, 1]]
+        cone = signorini.Cone([0, 0, -3], [0, 0, 3], 3.0)
+        contact = signorini.pair_obstacle(nodes, face, cone, clearance=1.0)
+        across = np.linalg.norm(nodes[:, :2], axis=1)
+        np.testing.assert_allclose(contact.gaps, across * np.sqrt(0.5) + 1)
+        contact = signorini.pair_obstacle(nodes, face, signorini.Torus([0, 0, 0], [0, 0, 7], 0.5, 4.0))
+        np.testing.assert_allclose(contact.gaps, 4 - across - 0.5)
 
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)

@@ -436,11 +436,17 @@ fn obstacles_face_nodes() {
     let (point, axis) = ([0.0, 5.0, 0.0], [0.0, -3.0, 0.0]);
     let bar = Obstacle::Cylinder { point, axis, radius: 1.0, hollow: false };
     let plane = Obstacle::Plane { point: [7.0, 0.0, 1.0], outward: [0.0, 0.0, 2.0] };
-    for obstacle in [sphere, bowl, bar, plane] {
+    // A cone of 45 degrees under its apex at z = 1.
+    let to_apex = [0.0, 0.0, 1.0];
+    let cone = Obstacle::Cone { point: [0.0; 3], to_apex, radius: 1.0, hollow: false };
+    let (centre, axis) = ([0.0; 3], [0.0, 0.0, -2.0]);
+    let torus = Obstacle::Torus { centre, axis, radius: 0.5, ring: 1.0, hollow: false };
+    for obstacle in [sphere, bowl, bar, plane, cone, torus] {
         let found = facing(&coordinates, slave, &obstacle, None).unwrap();
         assert_eq!(found.pairs.len(), 16);
         for pair in &found.pairs {
             let [x, y, z] = sheet.nodes[pair.slave];
+            let across = x.hypot(y);
             let (ball, round) = ((x * x + y * y + z * z).sqrt(), x.hypot(z));
             let (gap, normal) = match obstacle {
                 Obstacle::Sphere { hollow: false, .. } => {
@@ -449,6 +455,19 @@ fn obstacles_face_nodes() {
                 Obstacle::Sphere { .. } => (2.0 - ball, [x, y, z].map(|x| x / ball)),
                 Obstacle::Cylinder { .. } => (round - 1.0, [-x / round, 0.0, -z / round]),
                 Obstacle::Plane { .. } => (z - 1.0, [0.0, 0.0, -1.0]),
+                Obstacle::Cone { .. } if across < z - 1.0 => {
+                    let from = across.hypot(z - 1.0);
+                    (from, [x, y, z - 1.0].map(|x| -x / from))
+                }
+                Obstacle::Cone { .. } => {
+                    let normal = [x / across, y / across, 1.0].map(|x| -x * 0.5_f64.sqrt());
+                    ((across + z - 1.0) * 0.5_f64.sqrt(), normal)
+                }
+                Obstacle::Torus { .. } => {
+                    let ring = across - 1.0;
+                    let from = ring.hypot(z);
+                    (from - 0.5, [ring * x / across, ring * y / across, z].map(|x| -x / from))
+                }
             };
             assert!((pair.gap - gap).abs() < 1e-15, "{obstacle:?}: {pair:?}");
             assert!((0..3).all(|c| (pair.normal[c] - normal[c]).abs() < 1e-15), "{pair:?}");

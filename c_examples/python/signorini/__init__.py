@@ -58,14 +58,14 @@ from ._mesh import write_mesh, write_series
 from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
-from ._surfaces import (Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, SurfacePairs,
+from ._surfaces import (Cone, Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, SurfacePairs, Torus,
                         pair_obstacle, pair_surfaces)
 
 __all__ = [
-    "ABI_VERSION", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
+    "ABI_VERSION", "Cone", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
     "LcpProblem", "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Plane", "Progress", "Proof",
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
-    "SurfacePairs", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
+    "SurfacePairs", "Torus", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
     "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "solve", "solve_flexibility", "write",
     "write_lcp", "write_mesh", "write_series",
 ]

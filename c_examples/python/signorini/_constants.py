@@ -153,12 +153,14 @@ class Rims(IntEnum):
 
 
 class Obstacle(IntEnum):
-    """Kind of a rigid obstacle."""
+    """Kind of a rigid obstacle, or of the true shape of a side."""
 
     PLANE = 0
     CYLINDER = 1
     SPHERE = 2
     FACES = 3
+    CONE = 4
+    TORUS = 5
 
 
 class Problem(IntEnum):

@@ -5,7 +5,7 @@ import numpy as np
 from ._arrays import integers, reals
 from ._mesh import points
 from ._skin import corners, dimension, skin, turned
-from ._surfaces import Cylinder, Plane, RigidFaces, Sphere, pair_obstacle, pair_surfaces
+from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
 # Faces look the same way if the cosine between their normals is above this.
 SAME_WAY = 0.7
@@ -17,7 +17,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     slave, master: a mesh each, (coordinates, cells) with cells as for write_mesh, or an object with
     points and cells as meshio reads it. Nodes count on: those of the slave's mesh, then those of
     the master's. The same object twice: one mesh with both bodies, whose nodes count once. master
-    may be a Plane, Sphere, Cylinder or RigidFaces.
+    may be a Plane, Sphere, Cylinder, Cone, Torus or RigidFaces.
     slave_faces, master_faces: None, the whole skin of the mesh; the name of a set of cells or of a
     physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
     that tells for each node whether its faces of the skin belong, which they do if all of their
@@ -28,7 +28,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     has a volume. The rest: as for pair_surfaces.
     """
     first = _Mesh("slave", slave)
-    if isinstance(master, (Plane, Sphere, Cylinder, RigidFaces)):
+    if isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         if master_faces is not None:
             raise ValueError("master_faces is given, but master is an obstacle: leave it out")
         if slave_faces is None:

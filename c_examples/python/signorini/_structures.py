@@ -138,7 +138,8 @@ class SurfaceSettings(ctypes.Structure):
         ("dofs_per_node", i32), ("node_dofs", address), ("symmetry_planes", i64),
         ("symmetry_axes", address), ("symmetry_at", address), ("normals", i32), ("rims", i32),
         ("axisymmetric", i32), ("reserved", i32), ("time_limit", real), ("progress", Callback),
-        ("user", address),
+        ("user", address), ("slave_shape", address), ("master_shape", address),
+        ("close_within", real), ("clearance", real),
     ]
 
 

@@ -30,6 +30,20 @@ Cylinder.__doc__ = """A rigid round bar of any length, in 3D.
 point: of its axis.  axis: its direction.  hollow: the body is inside, as in a bore.
 """
 
+Cone = namedtuple("Cone", "point to_apex radius hollow", defaults=[False])
+Cone.__doc__ = """A rigid cone that widens from its apex without end, in 3D.
+
+point: the middle of one of its circles.  to_apex: from there to the apex.  radius: of that circle.  hollow:
+the body is inside, as in a countersink.
+"""
+
+Torus = namedtuple("Torus", "centre axis radius ring hollow", defaults=[False])
+Torus.__doc__ = """A rigid torus, in 3D.
+
+axis: the direction across the ring.  radius: of the tube.  ring: radius of the circle in the middle of the
+tube.  hollow: the body is inside of the tube.
+"""
+
 RigidFaces = namedtuple("RigidFaces", "coordinates faces")
 RigidFaces.__doc__ = """A rigid mesh with nodes of its own, such as the triangles of a drawing.
 
@@ -55,7 +69,8 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
-                  axisymmetric=False, time_limit=0.0, progress=None):
+                  axisymmetric=False, slave_shape=None, master_shape=None, close_within=0.0,
+                  clearance=0.0, time_limit=0.0, progress=None):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -75,27 +90,34 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     faces, or "keep" pairs of their own; by "node_to_surface" the default alone.
     axisymmetric: lines in 2D are meridians of bodies of revolution about the axis x = 0; areas are those
     of whole rings, and so must be stiffness and loads.
+    slave_shape, master_shape: the true shape of a side, of which its faces are facets, as a Plane, Sphere,
+    Cylinder, Cone or Torus; None: its faces. Gaps are measured to it; hollow has no say. By dual mortar.
+    close_within: gaps of at most this size become zero.  clearance: is added to every gap then; negative: an
+    interference.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
     SignoriniError.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        time_limit, progress)
+                        (slave_shape, master_shape, close_within, clearance), time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
                   dofs_per_node=0, symmetry=(), normals="averaged", rims="fold", axisymmetric=False,
+                  slave_shape=None, master_shape=None, close_within=0.0, clearance=0.0,
                   time_limit=0.0, progress=None):
-    """Pairs a surface with a rigid Plane, Sphere, Cylinder or RigidFaces: SurfacePairs.
+    """Pairs a surface with a rigid Plane, Sphere, Cylinder, Cone, Torus or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
-    symmetry, normals and rims are read for RigidFaces alone: a shape has normals of its own.
+    symmetry, normals, rims, slave_shape and master_shape are read for RigidFaces alone: a shape has
+    normals of its own.
     """
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
-                        rims, axisymmetric, time_limit, progress)
+                        rims, axisymmetric, (slave_shape, master_shape, close_within, clearance),
+                        time_limit, progress)
 
 
 class SurfacePairs:
@@ -113,7 +135,7 @@ class SurfacePairs:
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims, axisymmetric, time_limit, progress):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         self.slave_faces, self.coordinates = slave.lists, self._coordinates
@@ -123,6 +145,10 @@ class SurfacePairs:
             normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
             axisymmetric=bool(axisymmetric), time_limit=float(time_limit),
         )
+        *shapes, settings.close_within, settings.clearance = gaps
+        shapes = [shape and _shape(shape) for shape in shapes]
+        settings.slave_shape, settings.master_shape = (
+            shape and ctypes.addressof(shape) for shape in shapes)
         call = Call(self._functions, {"progress": progress})
         settings.progress = call.settings.progress
         axes, places = _planes(symmetry)
@@ -266,7 +292,7 @@ class _Rigid:
 
 
 def _shape(obstacle):
-    """A plane, cylinder or sphere as signorini_obstacle."""
+    """A shape as signorini_obstacle."""
     def three(vector):
         vector = [float(x) for x in vector]
         return (real * 3)(*(vector + [0.0])[:3])
@@ -281,7 +307,17 @@ def _shape(obstacle):
         return sized(RigidObstacle, kind=Obstacle.CYLINDER, point=three(obstacle.point),
                      direction=three(obstacle.axis), radius=obstacle.radius,
                      hollow=bool(obstacle.hollow))
-    raise TypeError(f"obstacle is {obstacle!r}: give a Plane, a Sphere, a Cylinder or RigidFaces")
+    if isinstance(obstacle, Cone):
+        return sized(RigidObstacle, kind=Obstacle.CONE, point=three(obstacle.point),
+                     direction=three(obstacle.to_apex), radius=obstacle.radius,
+                     hollow=bool(obstacle.hollow))
+    if isinstance(obstacle, Torus):
+        axis = reals("axis", obstacle.axis)
+        return sized(RigidObstacle, kind=Obstacle.TORUS, point=three(obstacle.centre),
+                     direction=three(axis * (obstacle.ring / np.linalg.norm(axis))),
+                     radius=obstacle.radius, hollow=bool(obstacle.hollow))
+    raise TypeError(f"{obstacle!r} is no shape: give a Plane, Sphere, Cylinder, Cone or Torus, or as an "
+                    f"obstacle RigidFaces")
 
 
 def _planes(symmetry):

@@ -1,0 +1,168 @@
+//! The true shapes of sides whose faces are facets of something curved, and the gaps between them.
+//!
+//! Facets of two meshes of one curve stand apart by up to `h² / 8 R`, which for divisions of a few degrees is as large as
+//! an interference. So the rows, areas and normals of pairs stay those of the faces, and only gaps are of the shapes:
+//! `g_j = (1 / D_j) Σ w_q ψ_j(q) g(q)`, where `g(q)` leads from the true point of the slave along the true normal there to
+//! the true shape of the master.
+
+use super::exact_shape::ExactShape;
+use super::face::Face;
+use super::mesh::Side;
+use super::overlap::Meeting;
+use super::projected_shapes::Opposite;
+use super::settings::TrueShape;
+use super::shape::Local;
+use crate::error::{Argument, Error, index};
+use crate::linalg::vector3::{Vector3, axis, unit};
+
+/// Steps of Newton's method along a normal to a shape: it converges by squares, from a distance that is a part of the
+/// radius of curvature.
+const STEPS: usize = 20;
+
+/// A step beside the size of a face, or in its local coordinates, this short is the last one: what remains is of the order
+/// of its square.
+const LAST: f64 = 1e-9;
+
+/// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
+const LEAST_FALL: f64 = 0.2;
+
+/// A side with its true shape.
+enum TrueSide {
+    Facets,
+    Exact(ExactShape),
+}
+
+/// Slave and master with their true shapes.
+pub(super) struct TrueSides<'a> {
+    master: &'a Side<'a>,
+    sides: [TrueSide; 2],
+}
+
+impl<'a> TrueSides<'a> {
+    /// `None` if both sides are their faces.
+    ///
+    /// # Errors
+    /// A shape with wrong numbers, or one that a node of its side is far from.
+    pub(super) fn new(
+        [slave, master]: [&'a Side<'a>; 2],
+        dim: usize,
+        shapes: &[TrueShape; 2],
+    ) -> Result<Option<TrueSides<'a>>, Error> {
+        if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
+            return Ok(None);
+        }
+        let side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
+            TrueShape::Facets => Ok(TrueSide::Facets),
+            TrueShape::Exact(shape) => {
+                let refuse = |message: String| {
+                    Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
+                };
+                let shape = shape.check(dim, side.scale()).map_err(refuse)?;
+                is_near(side, &shape).map_err(refuse)?;
+                Ok(TrueSide::Exact(shape))
+            }
+        };
+        let sides = [side(slave, "slave", &shapes[0])?, side(master, "master", &shapes[1])?];
+        Ok(Some(TrueSides { master, sides }))
+    }
+
+    /// The size of lengths that gaps are differences of, beside the places of nodes.
+    pub(super) fn size(&self) -> f64 {
+        let size = |side: &TrueSide| match side {
+            TrueSide::Facets => 0.0,
+            TrueSide::Exact(shape) => shape.size(),
+        };
+        self.sides.iter().map(size).sum()
+    }
+
+    /// The gaps at the points of a slave face.
+    pub(super) fn gaps(
+        &self,
+        face: &Face<'_>,
+        points: &[Meeting],
+        parts: &[Opposite<'_>],
+    ) -> Vec<f64> {
+        let size = face.size();
+        let of_part = |part: &Opposite<'_>| {
+            let opposite = self.master.face(part.at);
+            let gap = |point: &Meeting| {
+                let from = self.sides[0].point(face, point.slave);
+                match &self.sides[1] {
+                    TrueSide::Facets => along_to_patch(from, &opposite, point.master),
+                    TrueSide::Exact(shape) => along_to_shape(from, shape, size),
+                }
+            };
+            points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
+        };
+        parts.iter().flat_map(of_part).collect()
+    }
+}
+
+/// Refuses a shape that is further from a node of its side than the size of the face.
+fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
+    for at in 0..side.count() {
+        let face = side.face(at);
+        for &node in face.nodes {
+            let place = format!("node {} of face {}", index(node), index(at));
+            let Some((distance, _)) = shape.distance(side.position(node)) else {
+                return Err(format!("{place} stands on its axis or in its centre"));
+            };
+            if distance.abs() > face.size() {
+                return Err(format!("{place} is further away from it than the face is long"));
+            }
+        }
+    }
+    Ok(())
+}
+
+impl TrueSide {
+    /// The true point near a point of a face, and the unit normal there, outward as that of the face.
+    fn point(&self, face: &Face<'_>, at: Local) -> (Vector3, Vector3) {
+        let (x, outward) = (face.position(at), unit(face.outward(at)).unwrap_or_default());
+        match self {
+            TrueSide::Facets => (x, outward),
+            TrueSide::Exact(shape) => match shape.distance(x) {
+                Some((distance, gradient)) => {
+                    let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };
+                    (x - distance * gradient, sign * gradient)
+                }
+                None => (x, outward),
+            },
+        }
+    }
+}
+
+/// The distance from a point along a normal to an exact shape.
+fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64) -> f64 {
+    let mut along = 0.0;
+    for _ in 0..STEPS {
+        let Some((distance, gradient)) = shape.distance(x + along * normal) else { break };
+        let fall = gradient.dot(&normal);
+        let step = distance / fall.abs().max(LEAST_FALL).copysign(fall);
+        along -= step;
+        if step.abs() <= LAST * size {
+            break;
+        }
+    }
+    along
+}
+
+/// The distance from a point along a normal to a face or its continuation.
+fn along_to_patch((x, normal): (Vector3, Vector3), face: &Face<'_>, mut at: Local) -> f64 {
+    let mut along = 0.0;
+    for _ in 0..STEPS {
+        let from = face.position(at) - x;
+        let [a, b] = face.derivatives(at);
+        let b = if face.kind.is_line() { axis(2) } else { b };
+        let across = a.cross(&b);
+        along = across.dot(&from) / across.dot(&normal);
+        let rest = along * normal - from;
+        let (by_a, by_b) = (b.cross(&across), across.cross(&a));
+        let step = [by_a.dot(&rest) / by_a.dot(&a), by_b.dot(&rest) / by_b.dot(&b)];
+        at = [at[0] + step[0], at[1] + step[1]];
+        if step[0].abs().max(step[1].abs()) <= LAST {
+            break;
+        }
+    }
+    along
+}
