@@ -18,6 +18,7 @@ mod blocks;
 mod case_arguments;
 mod certify;
 mod condensed;
+mod equations;
 mod extra;
 mod fork_lock;
 mod fortran;

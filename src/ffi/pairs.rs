@@ -3,6 +3,7 @@
 use std::mem::offset_of;
 
 use super::args::{Arrays, size};
+use super::equations::SignoriniEquations;
 use super::guard::Failure;
 use super::sparse::shifted;
 use super::structures::Structure;
@@ -50,12 +51,17 @@ pub struct SignoriniPairs {
     /// Weight of each node: positive on the side whose outward normal is given, else negative.
     /// Those of a pair sum to 0, and against a rigid obstacle to 1.
     pub row_weights: *const f64,
+    /// General rows by degree of freedom, as of rigid bodies: row_nodes has one for each entry,
+    /// row_weights is NULL, and here are dim numbers for each: n d_n + t d_t = sum of vector * u.
+    pub row_vectors: *const f64,
+    /// Equations by which degrees of freedom follow from others; NULL: none.
+    pub equations: *const SignoriniEquations,
 }
 
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniPairs {
-    // Without general rows.
-    const OLDER: Option<usize> = Some(offset_of!(Self, row_start));
+    // Without general rows; without those by degree of freedom.
+    const OLDER: &'static [usize] = &[offset_of!(Self, row_start), offset_of!(Self, row_vectors)];
 }
 
 impl SignoriniPairs {
@@ -83,7 +89,7 @@ impl SignoriniPairs {
         let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
         let master_starts = match starts {
             Some(starts) => shifted(position, nodes.names[0], starts, base)?,
-            None if nodes.dofs.is_null() && nodes.weights.is_null() => vec![0; count + 1],
+            None if nodes.dofs.is_null() && nodes.numbers.is_null() => vec![0; count + 1],
             None => {
                 return refuse(
                     "pairs: master_start is NULL, but masters or weights is not: set \
@@ -98,27 +104,34 @@ impl SignoriniPairs {
         let Some(entries) = masters.checked_mul(dim) else {
             return refuse(format!("pairs: {masters} masters are too many"));
         };
-        let dofs = arrays.required(position, nodes.names[1], nodes.dofs, entries)?;
+        let (dofs, numbers) = if nodes.by_dof { (masters, entries) } else { (entries, masters) };
+        let dofs = arrays.required(position, nodes.names[1], nodes.dofs, dofs)?;
+        let numbers = arrays.required(position, nodes.names[2], nodes.numbers, numbers)?;
+        let equations = SignoriniEquations::read(arrays, position, given.equations, base)?;
         let pairs = ContactPairs {
             dim,
             count,
             slaves: &slaves,
             master_start: &master_starts,
             masters: &shifted(position, nodes.names[1], dofs, base)?,
-            weights: arrays.required(position, nodes.names[2], nodes.weights, masters)?,
+            weights: if nodes.by_dof { &[] } else { numbers },
+            vectors: nodes.by_dof.then_some(numbers),
             normals: arrays.required(position, "normals", given.normals, components)?,
             tangents: arrays.optional(position, "tangents", given.tangents, components)?,
+            equations: equations.view(),
         };
         to(arrays, &pairs)
     }
 
-    /// The nodes of the pairs in the one form or the other.
+    /// The nodes of the pairs in one of the forms.
     fn nodes(&self, position: i32) -> Result<Nodes, Failure> {
-        let is_given = |arrays: &[*const i64], weights: *const f64| {
-            !weights.is_null() || arrays.iter().any(|array| !array.is_null())
+        let is_given = |arrays: &[*const i64], numbers: &[*const f64]| {
+            numbers.iter().any(|array| !array.is_null())
+                || arrays.iter().any(|array| !array.is_null())
         };
-        let of_slaves = is_given(&[self.slaves, self.master_start, self.masters], self.weights);
-        let of_rows = is_given(&[self.row_nodes], self.row_weights);
+        let of_slaves = is_given(&[self.slaves, self.master_start, self.masters], &[self.weights]);
+        let of_rows = is_given(&[self.row_nodes], &[self.row_weights, self.row_vectors]);
+        let by_dof = !self.row_vectors.is_null();
         let refuse = |message: &str| Err(Failure::argument(position, message));
         match (self.row_start.is_null(), of_slaves, of_rows) {
             (false, true, _) => refuse(
@@ -126,32 +139,45 @@ impl SignoriniPairs {
                  these four NULL, or row_start, row_nodes and row_weights",
             ),
             (true, _, true) => refuse(
-                "pairs: row_nodes or row_weights is set, but row_start is NULL: set all three, or none",
+                "pairs: row_nodes, row_weights or row_vectors is set, but row_start is NULL: set row_start, \
+                 row_nodes and one of the two others, or none",
+            ),
+            (false, false, _) if by_dof && !self.row_weights.is_null() => refuse(
+                "pairs: row_weights and row_vectors are set: leave row_vectors NULL for rows of nodes, \
+                 row_weights for rows by degree of freedom",
             ),
             (false, false, _) => Ok(Nodes {
                 slaves: None,
                 start: self.row_start,
                 dofs: self.row_nodes,
-                weights: self.row_weights,
-                names: ["row_start", "row_nodes", "row_weights"],
+                numbers: if by_dof { self.row_vectors } else { self.row_weights },
+                by_dof,
+                names: [
+                    "row_start",
+                    "row_nodes",
+                    if by_dof { "row_vectors" } else { "row_weights" },
+                ],
             }),
             (true, _, false) => Ok(Nodes {
                 slaves: Some(self.slaves),
                 start: self.master_start,
                 dofs: self.masters,
-                weights: self.weights,
+                numbers: self.weights,
+                by_dof: false,
                 names: ["master_start", "masters", "weights"],
             }),
         }
     }
 }
 
-/// The arrays that say which nodes are in which pair, and their names for messages.
+/// The arrays that say what is in which pair, and their names for messages.
 struct Nodes {
     /// `None`: general rows.
     slaves: Option<*const i64>,
     start: *const i64,
     dofs: *const i64,
-    weights: *const f64,
+    /// Weights of nodes or, in rows by degree of freedom, their vectors.
+    numbers: *const f64,
+    by_dof: bool,
     names: [&'static str; 3],
 }

@@ -66,7 +66,7 @@ pub(super) const FLEXIBILITY: Names = ["W", "W: col_start", "W: row", "W: values
 
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniSparse {
-    const OLDER: Option<usize> = Some(offset_of!(Self, order));
+    const OLDER: &'static [usize] = &[offset_of!(Self, order)];
 }
 
 impl SignoriniSparse {

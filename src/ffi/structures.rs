@@ -22,8 +22,8 @@ const ALIGNMENT: usize = align_of::<i64>();
 /// # Safety
 /// It begins with its size, and zeros are a value of it: its fields are numbers, pointers and callbacks.
 pub(super) unsafe trait Structure: Copy {
-    /// Bytes of its one older form; `None`: a program may know any number of its fields.
-    const OLDER: Option<usize> = None;
+    /// Bytes of its older forms; none: a program may know any number of its fields.
+    const OLDER: &'static [usize] = &[];
 
     /// Zeros and NULL, with the size.
     fn zeros() -> Self {
@@ -59,7 +59,8 @@ impl<'h> Arrays<'h> {
         let mut copy = T::default_one();
         if !pointer.is_null() {
             let size = self.read_size(position, name, pointer)?;
-            if T::OLDER.is_some_and(|older| size < size_of::<T>() && size != older) {
+            let is_known = size >= size_of::<T>() || T::OLDER.contains(&size);
+            if !(T::OLDER.is_empty() || is_known) {
                 return Err(wrong_size::<T>(position, name, size));
             }
             self.note(position, name, pointer.cast::<u8>(), size, false)?;

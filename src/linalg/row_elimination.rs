@@ -211,7 +211,7 @@ impl<'c> Elimination<'c> {
 }
 
 /// Ascending, one term for each number; a sum that has cancelled but for rounding is none.
-fn gathered(mut terms: Terms) -> Terms {
+pub fn gathered(mut terms: Terms) -> Terms {
     terms.sort_by_key(|(k, _)| *k);
     let mut sums = Terms::new();
     let mut sizes: Vec<f64> = Vec::new();

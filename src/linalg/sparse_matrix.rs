@@ -180,7 +180,8 @@ pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc),
     Ok((leading.matrix(columns), below.matrix(w.ncols() - columns)))
 }
 
-fn product(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
+/// `A B`.
+pub fn product(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
     sparse_sparse_matmul(a.as_ref(), b.as_ref(), 1.0, Par::Seq).map_err(|_| OutOfMemory)
 }
 

@@ -14,6 +14,7 @@ impl<'a> From<&'a PairArrays> for ContactPairs<'a> {
             weights: &arrays.weights,
             normals: &arrays.normals,
             tangents: Some(&arrays.tangents),
+            ..ContactPairs::default()
         }
     }
 }

@@ -48,31 +48,58 @@ impl Frame {
         self.directions[..self.dim].iter().map(|direction| &direction.as_slice()[..self.dim])
     }
 
-    /// The component of `d` whose direction is along an axis.
-    pub(super) fn component_along(&self, axis: usize) -> Option<usize> {
-        let sine = |direction: &Vector3| {
-            let mut across = *direction;
-            across[axis] = 0.0;
-            across.norm()
-        };
-        (0..self.dim).find(|&component| sine(&self.directions[component]) <= ERROR_OF_DIRECTION)
+    /// The direction of a component of `d`.
+    pub(super) fn direction(&self, component: usize) -> Vector3 {
+        self.directions[component]
     }
 
-    /// Turns the frame so that the direction of `component`, which is along `axis` but for rounding,
-    /// is exactly so.
-    pub(super) fn align(&mut self, component: usize, axis: usize) {
-        let exact = vector3::axis(axis) * self.directions[component][axis].signum();
+    /// `true` if its directions are those of the axes but for rounding.
+    pub(super) fn stands_along_axes(&self) -> bool {
+        let axes = (0..self.dim).map(vector3::axis);
+        axes.into_iter().all(|axis| self.component_along(&axis).is_some())
+    }
+
+    /// The component of `d` along a direction.
+    fn component_along(&self, direction: &Vector3) -> Option<usize> {
+        let sine = |own: &Vector3| (own - own.dot(direction) * direction).norm();
+        (0..self.dim).find(|&c| sine(&self.directions[c]) <= ERROR_OF_DIRECTION)
+    }
+
+    /// The components of `d` along directions that supports hold, `held` orthonormal; the frame is turned exactly
+    /// along them. If it `may_turn` about its normal, it is turned as far as that takes. `None` if no components are
+    /// along them.
+    pub(super) fn along(&mut self, held: &[Vector3], may_turn: bool) -> Option<Vec<usize>> {
+        // The direction that is alone: the held one, or the one that is not.
+        let (lone, is_held) = match *held {
+            [] => return Some(Vec::new()),
+            [lone] => (lone, true),
+            [first, second] if self.dim == 3 => (unit(first.cross(&second))?, false),
+            _ => return Some((0..self.dim).collect()),
+        };
+        let mut along = self.component_along(&lone);
+        let across_normal = self.directions[0].dot(&lone).abs() <= ERROR_OF_DIRECTION;
+        if along.is_none() && may_turn && across_normal && self.dim == 3 {
+            self.directions[2] = lone;
+            along = Some(2);
+        }
+        let along = along?;
+        self.align(along, lone * self.directions[along].dot(&lone).signum());
+        Some((0..self.dim).filter(|c| (*c == along) == is_held).collect())
+    }
+
+    /// Turns the frame so that the direction of `component`, which is `exact` but for rounding, is exactly so.
+    fn align(&mut self, component: usize, exact: Vector3) {
         self.directions[component] = exact;
-        let [next, last] = [1, 2].map(|step| (component + step) % 3);
         if self.dim == 2 {
-            let other = 1 - component;
-            let across = vector3::axis(1 - axis);
-            self.directions[other] = across * self.directions[other][1 - axis].signum();
+            let across = Vector3::new(-exact.y, exact.x, 0.0);
+            let other = &mut self.directions[1 - component];
+            *other = across * other.dot(&across).signum();
             return;
         }
-        self.directions[next][axis] = 0.0;
-        self.directions[next] =
-            unit(self.directions[next]).unwrap_or_else(|| vector3::axis((axis + 1) % 3));
+        let [next, last] = [1, 2].map(|step| (component + step) % 3);
+        let across = self.directions[next];
+        let across = unit(across - across.dot(&exact) * exact);
+        self.directions[next] = across.unwrap_or(self.directions[next]);
         self.directions[last] = exact.cross(&self.directions[next]);
     }
 }

@@ -4,6 +4,7 @@
 //! relative loads, and turns a solution back into the host's displacements and nodal forces.
 
 mod condensed;
+mod equations;
 mod flexibility;
 mod frame;
 mod memory;
@@ -12,10 +13,12 @@ mod operator;
 mod pairs;
 mod probes;
 mod reduction;
+mod rows;
 mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
+pub use equations::Equations;
 pub use flexibility::FlexibilityReduction;
 pub use memory::memory;
 pub(crate) use motion::driven_motion;

@@ -1,20 +1,25 @@
 //! Contact pairs of a host: a slave node, the point that it faces, and a frame.
 
+use super::equations::{Dependents, Equations};
 use super::frame::Frame;
+use super::rows::Rows;
 use crate::error::{Argument, Error, index};
+use crate::linalg::row_elimination::Terms;
+use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::problem::checked_dim;
 
 /// The weights of a pair's masters sum to 1 up to this: far above the rounding of shape functions in
 /// doubles (1e-16) and of tables with ten digits, below anything that a gap shows.
 const SUM_OF_WEIGHTS: f64 = 1e-9;
 
-/// Contact pairs in degrees of freedom of the host: each a sum over nodes, `d = Rᵀ sum a_k u_k`, with `R` the
-/// pair's frame.
+/// Contact pairs in degrees of freedom of the host: each a sum `d = Rᵀ sum a_k u_k`, with `R` the pair's frame and
+/// a vector `a_k` of `dim` numbers for each degree of freedom.
 ///
-/// A pair of one slave against a point of other bodies has the weight 1 on its slave and, with the opposite
-/// sign, the weights of its masters. General rows, where [`Self::slaves`] is empty, list all nodes with
-/// signed weights. Nodes may stand in any number of pairs, and pairs may depend on each other.
-#[derive(Clone, Copy, Debug)]
+/// There are three forms. A pair of one slave against a point of other bodies has the weight 1 on its slave and,
+/// with the opposite sign, the weights of its masters. General rows, where [`Self::slaves`] is empty, list all nodes
+/// with signed weights; a node has as many degrees of freedom as axes and one weight for all. General rows by degree
+/// of freedom have [`Self::vectors`]. Nodes may stand in any number of pairs, and pairs may depend on each other.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ContactPairs<'a> {
     /// Space dimension, 2 or 3.
     pub dim: usize,
@@ -23,27 +28,27 @@ pub struct ContactPairs<'a> {
     /// Degrees of freedom of the slave nodes, `dim` for each pair, in the order of the axes. Empty: general
     /// rows, all nodes of a pair are in `masters` with signed weights.
     pub slaves: &'a [usize],
-    /// Start of each pair's masters in `weights`, and the number of all masters: `count + 1` entries.
+    /// Start of each pair's masters, and the number of all masters: `count + 1` entries.
     /// A pair without masters faces a rigid obstacle.
     pub master_start: &'a [usize],
-    /// Degrees of freedom of the master nodes, `dim` for each.
+    /// Degrees of freedom of the master nodes, `dim` for each; with [`Self::vectors`] one for each.
     pub masters: &'a [usize],
     /// Weight of each master node; those of a pair sum to 1. In general rows positive on the slave's side and
-    /// negative on the other; they sum to 0 between bodies and to 1 against an obstacle.
+    /// negative on the other; they sum to 0 between bodies and to 1 against an obstacle. With [`Self::vectors`]
+    /// empty.
     pub weights: &'a [f64],
+    /// General rows by degree of freedom: `dim` numbers for each, in the axes of the normals.
+    pub vectors: Option<&'a [f64]>,
     /// Normals, outward from the slave's body, `dim` for each pair, of any positive length.
     pub normals: &'a [f64],
     /// First tangents, `dim` for each pair, orthogonal to the normal to 1e-5; `None`: chosen.
     pub tangents: Option<&'a [f64]>,
+    /// Equations by which degrees of freedom follow from others. Pairs may name all of them.
+    pub equations: Equations<'a>,
 }
 
 fn refuse<T>(message: String) -> Result<T, Error> {
     Err(Error::invalid(Argument::Pairs, message))
-}
-
-/// A slave or master of a pair is a degree of freedom that the host does not have.
-fn no_dof(pair: usize, dof: usize) -> String {
-    format!("pair {}: there is no degree of freedom {}", index(pair), index(dof))
 }
 
 impl ContactPairs<'_> {
@@ -52,52 +57,75 @@ impl ContactPairs<'_> {
         self.slaves.is_empty()
     }
 
-    /// Degrees of freedom of the slave of a pair; `None` in general rows.
-    pub(super) fn slave(&self, pair: usize) -> Option<&[usize]> {
-        self.slaves.get(self.dim * pair..self.dim * (pair + 1))
+    /// Degrees of freedom of the slave of a pair; none in general rows.
+    fn slave(&self, pair: usize) -> &[usize] {
+        self.slaves.get(self.dim * pair..self.dim * (pair + 1)).unwrap_or_default()
     }
 
-    /// Weight and degrees of freedom of each master of a pair.
-    pub(super) fn masters_of(&self, pair: usize) -> impl Iterator<Item = (f64, &[usize])> {
-        (self.master_start[pair]..self.master_start[pair + 1])
-            .map(|k| (self.weights[k], &self.masters[self.dim * k..self.dim * (k + 1)]))
+    /// Places of the masters of a pair.
+    fn masters_of(&self, pair: usize) -> std::ops::Range<usize> {
+        self.master_start[pair]..self.master_start[pair + 1]
     }
 
-    /// Signed weight and degrees of freedom of each node of a pair.
-    pub(super) fn row(&self, pair: usize) -> impl Iterator<Item = (f64, &[usize])> {
+    fn count_of_masters(&self) -> usize {
+        if self.vectors.is_some() { self.masters.len() } else { self.weights.len() }
+    }
+
+    /// Degrees of freedom of a master, one for each axis or, with vectors, one.
+    fn master(&self, k: usize) -> &[usize] {
+        let each = if self.vectors.is_some() { 1 } else { self.dim };
+        &self.masters[each * k..each * (k + 1)]
+    }
+
+    /// The equation of a pair along an axis of the normals: degrees of freedom with coefficients.
+    fn terms(&self, pair: usize, axis: usize) -> Terms {
+        let mut terms: Terms =
+            self.slave(pair).get(axis).map(|&dof| (dof, 1.0)).into_iter().collect();
         let sign = if self.are_general() { 1.0 } else { -1.0 };
-        let slave = self.slave(pair).map(|dofs| (1.0, dofs));
-        slave.into_iter().chain(self.masters_of(pair).map(move |(w, dofs)| (sign * w, dofs)))
+        terms.extend(self.masters_of(pair).map(|k| match self.vectors {
+            Some(vectors) => (self.masters[k], vectors[self.dim * k + axis]),
+            None => (self.masters[self.dim * k + axis], sign * self.weights[k]),
+        }));
+        terms
     }
 
-    /// Returns `true` if each pair has a slave that stands in no other pair.
-    pub(super) fn have_own_slaves(&self, size: usize) -> bool {
-        let mut is_slave = vec![false; size];
-        let is_new = |&dof: &usize| !std::mem::replace(&mut is_slave[dof], true);
-        !self.are_general()
-            && self.slaves.iter().all(is_new)
-            && !self.masters.iter().any(|&dof| is_slave[dof])
-    }
-
-    /// Checks the arrays against a host of `size` degrees of freedom.
+    /// Checks the arrays against a host of `size` degrees of freedom, and makes rows of them in which dependent
+    /// ones are replaced.
     ///
     /// # Errors
     /// The first array of a wrong length, start of masters that is out of order, degree of freedom
-    /// that does not exist or stands for two axes of a slave, and sum of weights that cannot be.
-    pub(super) fn check(&self, size: usize) -> Result<(), Error> {
+    /// that does not exist or stands for two axes of a slave, sum of weights that cannot be, and vector that is not
+    /// finite.
+    pub(super) fn rows(&self, size: usize, dependents: &Dependents) -> Result<Rows, Error> {
         self.check_lengths()?;
         self.check_master_start()?;
-        (0..self.count).try_for_each(|pair| self.check_row(pair, size))
+        for pair in 0..self.count {
+            self.check_dofs(pair, size, dependents)?;
+            match self.vectors {
+                Some(vectors) => self.check_vectors(pair, vectors)?,
+                None => self.check_weights(pair)?,
+            }
+        }
+        let places = (0..self.count).flat_map(|pair| (0..self.dim).map(move |axis| (pair, axis)));
+        let equations = places.map(|(pair, axis)| dependents.replaced(self.terms(pair, axis)));
+        Ok(Rows::new(self.dim, equations.collect(), self.slaves))
     }
 
     fn check_lengths(&self) -> Result<(), Error> {
         let (dim, count) = (self.dim, self.count);
         checked_dim(dim)?;
-        let masters = self.weights.len();
+        let masters = self.count_of_masters();
+        let (each, weights, vectors) = match self.vectors {
+            Some(vectors) => (1, 0, vectors.len()),
+            None => (dim, masters, dim * masters),
+        };
+        let slaves = if self.are_general() || self.vectors.is_some() { 0 } else { dim * count };
         let lengths = [
-            ("slaves", self.slaves.len(), if self.are_general() { 0 } else { dim * count }),
+            ("slaves", self.slaves.len(), slaves),
             ("master_start", self.master_start.len(), count + 1),
-            ("masters", self.masters.len(), dim * masters),
+            ("masters", self.masters.len(), each * masters),
+            ("weights", self.weights.len(), weights),
+            ("vectors", vectors, dim * masters),
             ("normals", self.normals.len(), dim * count),
             ("tangents", self.tangents.map_or(dim * count, <[f64]>::len), dim * count),
         ];
@@ -110,7 +138,7 @@ impl ContactPairs<'_> {
     }
 
     fn check_master_start(&self) -> Result<(), Error> {
-        let (start, count, masters) = (self.master_start, self.count, self.weights.len());
+        let (start, count) = (self.master_start, self.count);
         if start[0] != 0 {
             return refuse(format!(
                 "pair {}: its masters begin at {}, they must begin with the first one",
@@ -124,26 +152,35 @@ impl ContactPairs<'_> {
                 index(pair)
             ));
         }
+        let masters = self.count_of_masters();
         if start[count] != masters {
             return refuse(format!(
-                "the pairs have {} masters, there are {masters} weights",
-                start[count]
+                "the pairs have {} masters, there are {masters} {}",
+                start[count],
+                if self.vectors.is_some() { "vectors" } else { "weights" }
             ));
         }
         Ok(())
     }
 
-    fn check_row(&self, pair: usize, size: usize) -> Result<(), Error> {
-        if let Some(&dof) = self.row(pair).flat_map(|(_, dofs)| dofs).find(|&&dof| dof >= size) {
-            return refuse(no_dof(pair, dof));
+    fn check_dofs(&self, pair: usize, size: usize, dependents: &Dependents) -> Result<(), Error> {
+        let slave = self.slave(pair);
+        let all = slave.iter().chain(self.masters_of(pair).flat_map(|k| self.master(k)));
+        if let Some(&dof) = all.into_iter().find(|&&dof| dof >= size && !dependents.have(dof)) {
+            let (pair, dof) = (index(pair), index(dof));
+            let given = if dependents.is_empty() { "" } else { ", and no equation gives it" };
+            return refuse(format!("pair {pair}: there is no degree of freedom {dof}{given}"));
         }
-        let slave = self.slave(pair).unwrap_or_default();
         if let Some(i) = (1..slave.len()).find(|&i| slave[..i].contains(&slave[i])) {
             let (dof, pair) = (index(slave[i]), index(pair));
             return refuse(format!("pair {pair}: its slave has degree of freedom {dof} twice"));
         }
-        let weights = || self.masters_of(pair).map(|(weight, _)| weight);
-        let (sum, largest) = (weights().sum::<f64>(), weights().map(f64::abs).fold(0.0, f64::max));
+        Ok(())
+    }
+
+    fn check_weights(&self, pair: usize) -> Result<(), Error> {
+        let weights = &self.weights[self.masters_of(pair)];
+        let (sum, largest) = (weights.iter().sum::<f64>(), norm_inf(weights));
         let scale = if self.are_general() { largest.max(1.0) } else { 1.0 };
         // Written so that NaN is refused.
         let is = |wanted: f64| sum.is_finite() && f64::abs(sum - wanted) <= SUM_OF_WEIGHTS * scale;
@@ -158,8 +195,25 @@ impl ContactPairs<'_> {
                     index(pair)
                 ));
             }
-        } else if self.masters_of(pair).next().is_some() && !is(1.0) {
+        } else if !weights.is_empty() && !is(1.0) {
             return refuse(format!("pair {}: its weights sum to {sum}, not to 1", index(pair)));
+        }
+        Ok(())
+    }
+
+    fn check_vectors(&self, pair: usize, vectors: &[f64]) -> Result<(), Error> {
+        let vector = |k: usize| &vectors[self.dim * k..self.dim * (k + 1)];
+        if let Some(k) = self.masters_of(pair).find(|&k| first_not_finite(vector(k)).is_some()) {
+            let (pair, dof) = (index(pair), index(self.masters[k]));
+            return refuse(format!(
+                "pair {pair}: the vector of degree of freedom {dof} is not finite"
+            ));
+        }
+        if self.masters_of(pair).all(|k| norm_inf(vector(k)) == 0.0) {
+            return refuse(format!(
+                "pair {}: it has no degree of freedom with a vector that is not zero",
+                index(pair)
+            ));
         }
         Ok(())
     }

@@ -163,6 +163,7 @@ impl Brick {
             weights: &[],
             normals: &vec![self.normal; count].concat(),
             tangents: tangents.as_deref(),
+            ..ContactPairs::default()
         };
         Model::sparse_within(&matrix.view(), &self.fixed(), &pairs, order, monitor)
     }

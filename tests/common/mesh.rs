@@ -287,6 +287,7 @@ impl Pairs {
             weights: &self.weights,
             normals: &self.flat_normals,
             tangents: None,
+            ..ContactPairs::default()
         }
     }
 }

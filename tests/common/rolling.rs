@@ -89,6 +89,7 @@ impl Shape {
             weights: &weights,
             normals: &[0.0, 0.0, -1.0].repeat(count),
             tangents: None,
+            ..ContactPairs::default()
         };
         let clamped = 3 * first..3 * (first + under[0].len() * under[1].len());
         let fixed: Vec<usize> = clamped.collect();

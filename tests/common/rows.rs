@@ -85,6 +85,7 @@ impl Host {
             weights,
             normals: &self.normals,
             tangents: self.tangents.as_deref(),
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &self.fixed, &pairs)
     }

@@ -98,6 +98,7 @@ impl Wavy {
             weights: &[],
             normals: &self.normals,
             tangents: None,
+            ..ContactPairs::default()
         };
         self.stiffness.model_under(&self.fixed, &pairs, monitor)
     }

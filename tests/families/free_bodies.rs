@@ -147,6 +147,7 @@ impl Body {
             weights: &[],
             normals: &vec![&self.normal[..self.dim]; count].concat(),
             tangents: None,
+            ..ContactPairs::default()
         };
         Model::sparse(&self.stiffness.view(), &[], &pairs)
     }

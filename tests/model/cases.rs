@@ -272,6 +272,7 @@ fn displacements_that_overflow_are_refused() {
         weights: &[],
         normals: &[1.0, 1.0],
         tangents: None,
+        ..ContactPairs::default()
     };
     let model = Model::sparse(&matrix, &[], &pairs).unwrap();
     let (small, large) = ([0.0, 0.0, 1e307, 0.0], [0.0, 0.0, 1e308, 0.0]);

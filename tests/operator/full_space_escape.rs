@@ -75,6 +75,7 @@ impl Block {
             weights: &[],
             normals: &self.normals,
             tangents: None,
+            ..ContactPairs::default()
         };
         let settings = Settings { full_space, ..Settings::default() };
         let monitor = &mut Monitor::new(&settings, None);

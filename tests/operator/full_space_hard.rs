@@ -42,6 +42,7 @@ fn model(dim: usize, (count, copies): (usize, usize), k: &[f64], settings: &Sett
         weights: &[],
         normals: &normals,
         tangents: Some(&tangents),
+        ..ContactPairs::default()
     };
     sparse.model_under(&[], &pairs, &mut Monitor::new(settings, None)).expect("a valid model")
 }

@@ -151,6 +151,7 @@ impl Host {
             weights: &host.weights,
             normals: &host.normals,
             tangents: None,
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &host.fixed, &pairs)
     }

@@ -28,6 +28,7 @@ fn frame(fixed: &[usize], normal: &[f64], tangent: Option<&[f64]>) -> Vec<Vec<f6
         weights: &[],
         normals: normal,
         tangents: tangent,
+        ..ContactPairs::default()
     };
     let go_on = &mut |_, _| Ok(());
     let control = Control { order: None, full_space: false, workers: &SingleThread, ask: go_on };
@@ -126,6 +127,7 @@ fn motions_are_told_alike_in_all_units() {
         weights: &[],
         normals: &[1.0, 0.0, 1.0, 0.0, 1.0, 0.0],
         tangents: None,
+        ..ContactPairs::default()
     };
     let reduction = SparseReduction::new(&matrix, &[], &pairs).unwrap();
     for unit in [1e-9, 1.0, 1e9] {

@@ -46,6 +46,7 @@ fn solution(dim: usize, free: usize, pull: &[f64]) -> String {
         weights: &[],
         normals: &normals,
         tangents: None,
+        ..ContactPairs::default()
     };
     let model = Model::sparse(&matrix, &[], &pairs).unwrap();
     let mut load = vec![0.0; size];

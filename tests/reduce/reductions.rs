@@ -131,6 +131,7 @@ fn rounding_is_half_a_unit_of_all_terms() {
         weights: &[],
         normals: &[0.0, -1.0],
         tangents: None,
+        ..ContactPairs::default()
     };
     let settings = Settings { full_space: true, ..Settings::default() };
     let monitor = &mut Monitor::new(&settings, None);
@@ -194,6 +195,7 @@ impl Nodes<'_> {
             weights: &weights,
             normals: &normals,
             tangents: None,
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, self.fixed, &pairs).unwrap()
     }
@@ -298,6 +300,7 @@ fn symmetry_is_judged_by_the_rows_of_an_entry() {
             weights: &[],
             normals: &[0.0, 1.0],
             tangents: None,
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &[], &pairs)
     };
@@ -392,6 +395,7 @@ fn tied(ground: f64, general: bool) -> Result<Model, Error> {
         weights: if general { &[1.0] } else { &[] },
         normals: &[0.0, -1.0],
         tangents: None,
+        ..ContactPairs::default()
     };
     Model::sparse(&matrix, &[], &pairs)
 }
@@ -439,6 +443,7 @@ fn weights_sum_up_to_their_rounding() {
             weights: &[1e6, other],
             normals: &[0.0, -1.0],
             tangents: None,
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &[], &pairs)
     };

@@ -76,6 +76,7 @@ impl Input {
             weights: &self.weights,
             normals: &self.normals,
             tangents: self.tangents.as_deref(),
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &self.fixed, &pairs)
     }

@@ -109,6 +109,7 @@ impl Host {
             weights: &self.weights,
             normals: &self.normals,
             tangents: self.tangents.as_deref(),
+            ..ContactPairs::default()
         };
         Model::sparse(&matrix, &self.fixed, &pairs).unwrap()
     }

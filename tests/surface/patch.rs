@@ -20,6 +20,7 @@ fn solve(stiffness: &Stiffness, fixed: &[usize], arrays: &PairArrays, load: &[f6
         weights: &arrays.weights,
         normals: &arrays.normals,
         tangents: Some(&arrays.tangents),
+        ..ContactPairs::default()
     };
     let model = Model::sparse(&stiffness.view(), fixed, &pairs).unwrap();
     let case = LoadCase {

@@ -3,6 +3,7 @@
 //!
 //! The unknowns `x` are the free degrees of freedom that no row gives, then the relative displacements `d` (of rows
 //! that depend on each other, those of independent ones); `p` are the values of the fixed degrees of freedom.
+//! Degrees of freedom that follow from others by equations of the host are neither.
 //! `W = [T P]` is one sparse matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
 //!
 //! A component of `d` that supports fix moves nothing. It gets a spring to nothing, as stiff as the
@@ -11,11 +12,12 @@
 
 use super::supports::FixedComponent;
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, congruence, from_columns, from_entries, times, transpose_times,
+    Csc, OutOfMemory, congruence, from_columns, from_entries, product, times, transpose_times,
 };
 use crate::linalg::vector::norm_inf;
+use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
-use crate::reduce::pairs::ContactPairs;
+use crate::reduce::rows::Rows;
 
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
@@ -63,10 +65,12 @@ impl VariableColumns {
 }
 
 impl ChangeOfVariables {
-    /// The change of variables with all entries of `T` and `P`, and springs on components that are fixed.
+    /// The change of variables with all entries of `T` and `P` but those of `dependents`, and springs on components
+    /// that are fixed.
     pub(super) fn new(
         columns: VariableColumns,
         fixed_components: &[FixedComponent],
+        dependents: &Dependents,
     ) -> Result<Self, OutOfMemory> {
         let VariableColumns { free, unknowns, fixed, of_dof, mut entries } = columns;
         let (host_size, springs) = (of_dof.len(), fixed_components.len());
@@ -74,7 +78,11 @@ impl ChangeOfVariables {
             entries.push((host_size + k, free.len() + fixed.variable, 1.0));
         }
         entries.retain(|(_, _, value)| *value != 0.0);
-        let matrix = from_entries((host_size + springs, unknowns + fixed), entries.into_iter())?;
+        let rows = host_size + springs;
+        let mut matrix = from_entries((rows, unknowns + fixed), entries.into_iter())?;
+        if !dependents.is_empty() {
+            matrix = product(&with_dependents(rows, host_size, dependents)?, &matrix)?;
+        }
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
     }
 
@@ -116,6 +124,20 @@ impl ChangeOfVariables {
     }
 }
 
+/// The matrix that gives dependents from all others.
+fn with_dependents(
+    rows: usize,
+    host_size: usize,
+    dependents: &Dependents,
+) -> Result<Csc, OutOfMemory> {
+    // Springs stand where the host may have other numbers.
+    let stays = |dof: &usize| *dof >= host_size || !dependents.have(*dof);
+    let same = (0..rows).filter(stays).map(|dof| (dof, dof, 1.0));
+    let given = dependents.of_matrix(host_size);
+    let given = given.flat_map(|(dof, terms)| terms.iter().map(move |&(k, a)| (dof, k, a)));
+    from_entries((rows, rows), same.chain(given))
+}
+
 /// The matrix with rows for decoupled springs at its end, as stiff as its largest entry.
 fn with_springs(lower: Csc, springs: usize) -> Csc {
     if springs == 0 {
@@ -136,18 +158,17 @@ fn with_springs(lower: Csc, springs: usize) -> Csc {
 /// `d = Rᵀ sum a_k u_k`.
 pub(super) fn contact_forces(
     host_size: usize,
-    pairs: &ContactPairs<'_>,
+    rows: &Rows,
     frames: &[Frame],
 ) -> Result<Csc, OutOfMemory> {
     let mut entries = Vec::new();
     for (pair, frame) in frames.iter().enumerate() {
         for (component, direction) in frame.directions().enumerate() {
-            let component = pairs.dim * pair + component;
-            for (axis, &part) in direction.iter().enumerate() {
-                let nodes = pairs.row(pair);
-                entries.extend(nodes.map(|(weight, dofs)| (dofs[axis], component, weight * part)));
+            let component = rows.dim * pair + component;
+            for (terms, &part) in rows.of_pair(pair).iter().zip(direction) {
+                entries.extend(terms.iter().map(|&(dof, a)| (dof, component, a * part)));
             }
         }
     }
-    from_entries((host_size, pairs.dim * pairs.count), entries.into_iter())
+    from_entries((host_size, rows.equations.len()), entries.into_iter())
 }

@@ -1,14 +1,14 @@
-//! Rows of any nodes: chains, nodes in several pairs, slaves with supports, and rows that depend on each
-//! other.
+//! Rows of any degrees of freedom: chains, nodes in several pairs, slaves with supports, and rows that depend on
+//! each other.
 //!
 //! Each axis of a pair is an equation `sum a_k u_k = delta` in degrees of freedom of the host. Independent
 //! equations give a degree of freedom each, and with it the change of variables `u = T x + P p`; a slave
 //! of its own gives its equation. What an equation says that follows
 //! from others is a combination of their right sides and of fixed values.
 //!
-//! The variables kept are the relative displacements `d` of a pair whose axes are all independent, or fixed
-//! along a direction of its frame, and the independent `delta` of other pairs. If there are others, rows
-//! depend on each other.
+//! The variables kept are the relative displacements `d` of a pair whose equations are all independent, or that
+//! supports hold along directions of its frame, and the independent `delta` of other pairs. If there are others,
+//! rows depend on each other.
 
 use super::change_of_variables::{ChangeOfVariables, VariableColumns};
 use super::messages;
@@ -16,9 +16,11 @@ use super::supports::FixedComponent;
 use crate::error::{Argument, Error};
 use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
 use crate::linalg::sparse_matrix::OutOfMemory;
+use crate::linalg::vector3::{self, Vector3, unit};
 use crate::problem::Dependence;
+use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
-use crate::reduce::pairs::ContactPairs;
+use crate::reduce::rows::Rows;
 
 /// The host's degrees of freedom, solved for general rows.
 pub(super) struct GeneralRows {
@@ -37,7 +39,7 @@ enum RowPlace {
 }
 
 /// The data that the parts share.
-struct Rows<'r> {
+struct KeptRows<'r> {
     dim: usize,
     frames: &'r [Frame],
     /// The place of each degree of freedom among the fixed ones.
@@ -46,28 +48,34 @@ struct Rows<'r> {
     kept: usize,
 }
 
-/// Solves the rows of `pairs` for degrees of freedom; `places` are those of fixed ones in `fixed`. Turns
-/// frames along axes that supports fix.
+/// The host's side of rows: its supports, and what follows from others.
+pub(super) struct HostDofs<'h> {
+    /// The place of each degree of freedom among the fixed ones.
+    pub(super) places: &'h [Option<usize>],
+    pub(super) dependents: &'h Dependents,
+}
+
+/// Solves `rows` for degrees of freedom of the host. Turns `frames` along what supports hold; about their normals at
+/// will if they `may_turn`.
 ///
 /// # Errors
 /// A pair that moves nothing; not enough memory.
 pub(super) fn general_rows(
-    pairs: &ContactPairs<'_>,
-    frames: &mut [Frame],
-    places: &[Option<usize>],
+    rows: &Rows,
+    (frames, may_turn): (&mut [Frame], bool),
+    host: &HostDofs<'_>,
 ) -> Result<GeneralRows, Error> {
-    let equations: Vec<Terms> = (0..pairs.count)
-        .flat_map(|pair| (0..pairs.dim).map(move |axis| (pair, axis)))
-        .map(|(pair, axis)| pairs.row(pair).map(|(weight, dofs)| (dofs[axis], weight)).collect())
-        .collect();
+    let places = host.places;
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
-    let solved = solve(&equations, places.len(), &may_choose);
-    let (mut supports, own) = (Vec::new(), pairs.have_own_slaves(places.len()));
+    let solved = solve(&rows.equations, places.len(), &may_choose);
+    let mut supports = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
-        supports.extend(held((pair, own), frame, &solved, places)?);
+        let may_rest = rows.have_own_slaves && frame.stands_along_axes();
+        let held = HeldPair::new(rows, &solved, (pair, may_rest))?;
+        supports.extend(held.map(|held| held.along(frame, may_turn, places)).unwrap_or_default());
     }
-    let rows = Rows::new(pairs.dim, frames, places, &solved, &mut supports);
-    rows.assembled(&solved, supports)
+    let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
+    rows.assembled(&solved, supports, host.dependents)
         .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
 }
 
@@ -76,44 +84,79 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
     solved.dependent[dim * pair + axis].as_ref()
 }
 
-/// The components of a pair that supports fix, and its frame turned exactly along them; none if one of its
-/// axes follows from other pairs, or is fixed and no direction of the frame.
-///
-/// # Errors
-/// A pair that supports fix wholly, as general rows by mistake may be. With a slave of its `own` it is legal if its
-/// frame stands along the axes.
-fn held(
-    (pair, own): (usize, bool),
-    frame: &mut Frame,
-    solved: &Solved,
-    places: &[Option<usize>],
-) -> Result<Vec<FixedComponent>, Error> {
-    let dim = frame.directions().count();
-    let is_held = |axis: usize| {
-        let expression = dependent(solved, pair, dim, axis);
-        expression.is_some_and(|expression| expression.right_sides.is_empty())
-    };
-    let held: Vec<usize> = (0..dim).filter(|&axis| is_held(axis)).collect();
-    let along: Option<Vec<usize>> = held.iter().map(|&axis| frame.component_along(axis)).collect();
-    if held.len() == dim && !(own && along.is_some()) {
-        return Err(Error::invalid(Argument::Pairs, messages::moves_nothing(pair)));
-    }
-    let dependent_axes = (0..dim).filter(|&axis| dependent(solved, pair, dim, axis).is_some());
-    if dependent_axes.count() != held.len() {
-        return Ok(Vec::new());
-    }
-    let Some(along) = along else { return Ok(Vec::new()) };
-    let fixed = |(&axis, &along): (&usize, &usize)| {
-        frame.align(along, axis);
-        let terms = dependent(solved, pair, dim, axis).map_or(&[][..], |terms| &terms.unknowns);
-        let jump = terms.iter().filter_map(|&(dof, a)| Some((places[dof]?, a))).collect();
-        let component = dim * pair + along;
-        FixedComponent { pair, component, variable: component, jump }
-    };
-    Ok(held.iter().zip(&along).map(fixed).collect())
+/// A pair that supports hold along some directions, or along none.
+struct HeldPair<'s> {
+    pair: usize,
+    dim: usize,
+    /// The equations that follow from others of the pair and from fixed values, by axis.
+    of_axes: Vec<(usize, &'s Expression)>,
 }
 
-impl<'r> Rows<'r> {
+impl<'s> HeldPair<'s> {
+    /// `None` if one of its equations follows from those of other pairs.
+    ///
+    /// # Errors
+    /// A pair that supports fix wholly, as general rows by mistake may be, unless it `may_rest`.
+    fn new(
+        rows: &Rows,
+        solved: &'s Solved,
+        (pair, may_rest): (usize, bool),
+    ) -> Result<Option<Self>, Error> {
+        let dim = rows.dim;
+        let of_axis = |axis| Some((axis, dependent(solved, pair, dim, axis)?));
+        let of_axes: Vec<_> = (0..dim).filter_map(of_axis).collect();
+        let own = dim * pair..dim * (pair + 1);
+        let mut sides = of_axes.iter().flat_map(|(_, expression)| &expression.right_sides);
+        if !sides.all(|(equation, _)| own.contains(equation)) {
+            return Ok(None);
+        }
+        if of_axes.len() == dim && !may_rest {
+            return Err(Error::invalid(Argument::Pairs, messages::moves_nothing(pair)));
+        }
+        Ok(Some(HeldPair { pair, dim, of_axes }))
+    }
+
+    /// Orthonormal directions along which the pair is held: of those with `delta_a = sum c_b delta_b + fixed values`.
+    fn directions(&self) -> Vec<Vector3> {
+        let mut directions: Vec<Vector3> = Vec::new();
+        for (axis, expression) in &self.of_axes {
+            let mut direction = vector3::axis(*axis);
+            for (equation, share) in &expression.right_sides {
+                direction[equation % self.dim] -= share;
+            }
+            for other in &directions {
+                direction -= direction.dot(other) * other;
+            }
+            directions.extend(unit(direction));
+        }
+        directions
+    }
+
+    /// The components that are held, with the frame turned exactly along them; none if none are.
+    fn along(
+        &self,
+        frame: &mut Frame,
+        may_turn: bool,
+        places: &[Option<usize>],
+    ) -> Vec<FixedComponent> {
+        let along = frame.along(&self.directions(), may_turn).unwrap_or_default();
+        let fixed = |component: usize| {
+            let direction = frame.direction(component);
+            let of_axis = |(axis, expression): &(usize, &Expression)| {
+                let part = direction[*axis];
+                let values = expression.unknowns.iter();
+                let values = values.filter_map(|&(dof, a)| Some((places[dof]?, part * a)));
+                values.collect::<Terms>()
+            };
+            let jump = self.of_axes.iter().flat_map(of_axis).filter(|(_, a)| *a != 0.0).collect();
+            let component = self.dim * self.pair + component;
+            FixedComponent { pair: self.pair, component, variable: component, jump }
+        };
+        along.into_iter().map(fixed).collect()
+    }
+}
+
+impl<'r> KeptRows<'r> {
     /// Numbers the variables, those of `supports` too.
     fn new(
         dim: usize,
@@ -149,7 +192,7 @@ impl<'r> Rows<'r> {
                 support.variable = first + support.component % dim;
             }
         }
-        Rows { dim, frames, fixed, places, kept }
+        KeptRows { dim, frames, fixed, places, kept }
     }
 
     /// The right side of an independent equation in variables.
@@ -177,8 +220,10 @@ impl<'r> Rows<'r> {
         &self,
         solved: &Solved,
         supports: Vec<FixedComponent>,
+        dependents: &Dependents,
     ) -> Result<GeneralRows, OutOfMemory> {
-        let given = solved.given.iter().map(|(dof, _)| *dof);
+        let of_equations = dependents.of_matrix(self.fixed.len()).map(|(dof, _)| dof);
+        let given = solved.given.iter().map(|(dof, _)| *dof).chain(of_equations);
         let mut columns = VariableColumns::new(self.fixed, given, self.kept);
         let VariableColumns { free, of_dof: column, entries, .. } = &mut columns;
         for (dof, expression) in &solved.given {
@@ -189,7 +234,7 @@ impl<'r> Rows<'r> {
             entries.extend(sides.into_iter().map(|(k, a)| (*dof, free.len() + k, a)));
         }
         let fixed = columns.fixed;
-        let variables = ChangeOfVariables::new(columns, &supports)?;
+        let variables = ChangeOfVariables::new(columns, &supports, dependents)?;
         let depends = self.places.iter().any(|place| matches!(place, RowPlace::Axes(_)));
         let dependent = if depends { Some(self.dependence(solved, fixed)?) } else { None };
         Ok(GeneralRows { variables, supports, dependent })

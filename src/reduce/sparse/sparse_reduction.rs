@@ -3,7 +3,7 @@
 use super::change_of_variables::{ChangeOfVariables, contact_forces};
 use super::control::{Asked, Control, ranks};
 use super::full_space::FullSpace;
-use super::general_rows::{GeneralRows, general_rows};
+use super::general_rows::{GeneralRows, HostDofs, general_rows};
 use super::host_arrays::SparseMatrix;
 use super::messages;
 use super::supports::{self, FixedComponent};
@@ -13,6 +13,7 @@ use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
 use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, StiffnessOperator};
+use crate::reduce::equations::Dependents;
 use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
 use crate::workers::{SingleThread, Workers};
 
@@ -78,17 +79,20 @@ impl SparseReduction {
         let memory = |_: OutOfMemory| Error::OutOfMemory("the reduced stiffness matrix");
         // The matrix first: a wrong size or index base shows in the other arrays too.
         matrix.check_col_start()?;
-        let places = supports::places_in_fixed(matrix.size, fixed)?;
-        let host = matrix.lower_triangle("K", |dof| places[dof].is_some())?;
+        let dependents = &Dependents::new(&pairs.equations, matrix.size)?;
+        let places = &supports::places_in_fixed(matrix.size, fixed, dependents)?;
+        let is_given = |dof: usize| places[dof].is_some() || dependents.have(dof);
+        let host = matrix.lower_triangle("K", is_given)?;
         (control.ask)(0.0, 0)?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
-        pairs.check(matrix.size)?;
+        let rows = pairs.rows(matrix.size, dependents)?;
         let mut frames = pairs.frames()?;
+        let may_turn = pairs.tangents.is_none();
         let GeneralRows { variables, supports, dependent } =
-            general_rows(pairs, &mut frames, &places)?;
-        let own = dependent.is_none() && pairs.have_own_slaves(matrix.size);
+            general_rows(&rows, (&mut frames, may_turn), &HostDofs { places, dependents })?;
+        let own = dependent.is_none() && rows.have_own_slaves;
         (control.ask)(0.0, 0)?;
-        let contact_forces = contact_forces(matrix.size, pairs, &frames).map_err(memory)?;
+        let contact_forces = contact_forces(matrix.size, &rows, &frames).map_err(memory)?;
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
         let mut asked = Asked::new(control.ask);
         let free = variables.free();

@@ -3,12 +3,17 @@
 
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
+use crate::reduce::equations::Dependents;
 
 /// Place in `fixed` of each degree of freedom.
 ///
 /// # Errors
-/// A degree of freedom that does not exist or is listed twice.
-pub(super) fn places_in_fixed(size: usize, fixed: &[usize]) -> Result<Vec<Option<usize>>, Error> {
+/// A degree of freedom that does not exist, is listed twice or is dependent.
+pub(super) fn places_in_fixed(
+    size: usize,
+    fixed: &[usize],
+    dependents: &Dependents,
+) -> Result<Vec<Option<usize>>, Error> {
     let refuse = |message: String| Err(Error::invalid(Argument::Fixed, message));
     let mut places = vec![None; size];
     for (k, &dof) in fixed.iter().enumerate() {
@@ -17,6 +22,13 @@ pub(super) fn places_in_fixed(size: usize, fixed: &[usize]) -> Result<Vec<Option
         };
         if place.replace(k).is_some() {
             return refuse(format!("fixed: degree of freedom {} is listed twice", index(dof)));
+        }
+        if dependents.have(dof) {
+            return refuse(format!(
+                "fixed: degree of freedom {} is dependent by an equation: leave it out of fixed, or leave its \
+                 equation out",
+                index(dof)
+            ));
         }
     }
     Ok(places)
