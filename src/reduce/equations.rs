@@ -188,6 +188,17 @@ impl Dependents {
         gathered(sum)
     }
 
+    /// The degrees of freedom below `size` that may have no stiffness of their own: dependents, and those that get it
+    /// from them, as of the reference point of a rigid body.
+    pub(super) fn without_own_stiffness(&self, size: usize) -> Vec<bool> {
+        let mut may = vec![false; size];
+        for (dof, terms) in self.of_matrix(size) {
+            may[dof] = true;
+            terms.iter().for_each(|(k, _)| may[*k] = true);
+        }
+        may
+    }
+
     /// The dependents below `size`, ascending, with their terms.
     pub(super) fn of_matrix(&self, size: usize) -> impl Iterator<Item = (usize, &Terms)> {
         self.terms.range(..size).map(|(dof, terms)| (*dof, terms))

@@ -9,6 +9,8 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
 
+mod constrained;
+mod equations;
 mod frames;
 mod general_rows;
 mod motion_words;

@@ -81,8 +81,8 @@ impl SparseReduction {
         matrix.check_col_start()?;
         let dependents = &Dependents::new(&pairs.equations, matrix.size)?;
         let places = &supports::places_in_fixed(matrix.size, fixed, dependents)?;
-        let is_given = |dof: usize| places[dof].is_some() || dependents.have(dof);
-        let host = matrix.lower_triangle("K", is_given)?;
+        let moved = dependents.without_own_stiffness(matrix.size);
+        let host = matrix.lower_triangle("K", |dof| places[dof].is_some() || moved[dof])?;
         (control.ask)(0.0, 0)?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         let rows = pairs.rows(matrix.size, dependents)?;
