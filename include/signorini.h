@@ -1,7 +1,7 @@
 /*
  * signorini: unilateral contact with friction for existing finite-element codes.
  *
- * Sections of this header, in the order of need:
+ * Sections, in the order of need:
  *
  *     1  One call            a matrix that you have condensed
  *     2  Your own matrix     a whole sparse matrix with contact pairs, two bodies, a flexibility
@@ -55,9 +55,9 @@
  * libraries of different versions work together: fields that one does not know are zero or keep
  * their defaults. A field that asks for what the library does not have is refused.
  *
- * Threads. Calls from several threads at once are safe, on the same model or problem too, as long
- * as no thread frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call.
- * The library starts threads only where settings.threads asks for them. Calls need 64 KiB of stack.
+ * Threads. Several threads may call at once, on the same model or problem too, as long as none
+ * frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call. The library
+ * starts threads only where settings.threads asks for them. Calls need 64 KiB of stack.
  *
  * The library never prints, exits, reads the environment or handles signals. It opens no file that
  * you do not name. Inside a call floating-point traps and flush-to-zero are off; on return they are
@@ -180,11 +180,11 @@ const char *signorini_last_error(void);
 /** The call may need more than memory_limit: nothing was computed or written. */
 #define SIGNORINI_STATUS_MEMORY_LIMIT 8
 #define SIGNORINI_STATUS_INTERNAL -1000 /**< A caught defect of the library: results undefined. */
-/** Out of memory: only earlier load cases were written, and the call holds nothing. */
+/** Out of memory: only earlier load cases were written. */
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001
 #define SIGNORINI_STATUS_FILE -1002        /**< A file cannot be read or written. */
 
-/** Static text that describes a status, such as "solved"; never NULL, for any number. */
+/** Static text that describes any status, such as "solved"; never NULL. */
 const char *signorini_status_string(int32_t status);
 
 /* ============================================================================================
@@ -201,6 +201,7 @@ const char *signorini_status_string(int32_t status);
 #define SIGNORINI_TRIANGLE_FULL 2  /**< All entries. */
 
 typedef struct signorini_sparse signorini_sparse;
+typedef struct signorini_equations signorini_equations;
 typedef struct signorini_pairs signorini_pairs;
 typedef struct signorini_model_data signorini_model_data;
 
@@ -213,7 +214,7 @@ struct signorini_sparse {
     int32_t index_bytes;  /**< Width of col_start, row and order: 4 for int32_t, 8 for int64_t. */
     /** Number of the first row, 0 or 1: all degrees of freedom of the call count from it. */
     int32_t index_base;
-    int32_t triangle;     /**< Which entries are stored, SIGNORINI_TRIANGLE_... */
+    int32_t triangle;     /**< SIGNORINI_TRIANGLE_... */
     int64_t size;         /**< Number of rows and columns. */
     int64_t nnz;          /**< Number of stored entries. */
     /** Start of each column in row and values, size + 1 entries from index_base. */
@@ -229,27 +230,42 @@ struct signorini_sparse {
 };
 
 /**
+ * Equations u[dependent] = sum of coefficient * u[dof], without terms 0: constraints, rigid
+ * bodies, turned axes, cyclic sectors. Pairs may name dependents. Those of K are eliminated, with
+ * their loads; others have any number. Contact forces come out on the rest.
+ */
+struct signorini_equations {
+    uint32_t struct_size;       /**< sizeof(signorini_equations). */
+    int32_t reserved;           /**< 0. */
+    int64_t count;              /**< Number of equations. */
+    const int64_t *dependent;   /**< One of each equation, not in fixed. */
+    const int64_t *start;       /**< Start of each equation's terms, as master_start. */
+    const int64_t *dofs;        /**< Degree of freedom of each term. */
+    const double *coefficients; /**< Of each term. */
+};
+
+/**
  * Contact pairs: each has a slave node, a point that faces it, and a normal. The point is
  * interpolated between master nodes on other bodies; without masters it is on a rigid obstacle.
  * The gap is closed at d_n = gap:
  *     u_slave = sum of weight * u_master + n d_n + t d_t      (3D: + t1 d_t1 + t2 d_t2)
  *
- * General rows, as mortar methods make them: slaves, master_start, masters and weights are NULL,
- * and each pair is a list of nodes with signed weights: n d_n + t d_t = sum of row_weight * u.
+ * General rows, as of mortar methods: slaves, master_start, masters and weights are NULL, and
+ * n d_n + t d_t = sum of row_weight * u over nodes or, as of rigid bodies, of row_vector * u over
+ * degrees of freedom.
  *
- * A node may stand in any number of pairs, as slave and as master, and may be fixed. Where all
- * nodes of a pair are fixed along its normal or a tangent, d and F are zero along it. Pairs may
- * depend on each other, as those of a node on two planes: then contact forces are not unique.
+ * A node may stand in any number of pairs, as slave and master, and be fixed. Where a pair is held
+ * along its normal or a tangent, d and F are zero along it. Pairs may depend on each other, as
+ * those of a node on two planes: then contact forces are not unique.
  */
 struct signorini_pairs {
-    uint32_t struct_size;     /**< sizeof(signorini_pairs). */
-    int32_t dim;              /**< Space dimension, 2 or 3. */
-    int64_t count;            /**< Number of pairs. */
-    /** Degrees of freedom of each slave node, dim for each, in the order of the axes. */
-    const int64_t *slaves;
+    uint32_t struct_size;                 /**< sizeof(signorini_pairs). */
+    int32_t dim;                          /**< Space dimension, 2 or 3. */
+    int64_t count;                        /**< Number of pairs. */
+    const int64_t *slaves; /**< Degrees of freedom of each slave node, in the order of the axes. */
     /** Start of each pair's masters, count + 1 entries from index_base. NULL: no pair has any. */
     const int64_t *master_start;
-    const int64_t *masters;   /**< Degrees of freedom of each master node, dim for each. */
+    const int64_t *masters;               /**< Those of each master node. */
     /** Weight of each master node, negative ones too; those of a pair sum to 1. */
     const double *weights;
     /** Normal of each pair, dim entries, outward from the slave's body, of any length. */
@@ -259,14 +275,19 @@ struct signorini_pairs {
      * chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the first axis most across n.
      */
     const double *tangents;
-    /** General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL. */
+    /** General rows: start of each pair's nodes, as master_start; else NULL. */
     const int64_t *row_start;
-    const int64_t *row_nodes; /**< Degrees of freedom of each node, as slaves. */
+    const int64_t *row_nodes;             /**< Those of each node. */
     /**
      * Weight of each node: positive on the side whose outward normal is given, else negative.
      * Those of a pair sum to 0, and against a rigid obstacle to 1.
      */
     const double *row_weights;
+    /**
+     * dim numbers for each of row_nodes, which are degrees of freedom then; row_weights is NULL.
+     */
+    const double *row_vectors;
+    const signorini_equations *equations; /**< NULL: none. */
 };
 
 /**
@@ -281,13 +302,13 @@ typedef struct signorini_model signorini_model;
  * and contact zones. Contact alone may support a body. H = K->size.
  *
  * If the condensed matrix needs more than memory_limit, the model is in full space: load cases
- * are solved by Newton's method with GMRES on a sparse factor that is made anew a few times in
+ * are solved by Newton's method with GMRES on a sparse factor, made anew a few times in
  * each, methods AUTO and NEWTON alone; search and settings.proof are refused. Pairs that depend on
  * each other are condensed all the same.
  *
  * @param K         the stiffness of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom
- * @param fixed     these degrees of freedom, counted from K->index_base
+ * @param fixed     these degrees of freedom
  * @param pairs     the contact pairs
  * @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
  *                  and full_space. Ordering asks the callback every 0.2 s (1e5 unknowns)
@@ -313,8 +334,7 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
  * that neither resists is refused. Loads and displacements are [A; B], H = 2 N.
  *
  * @param dim,pairs  as for signorini_solve
- * @param K_A,lda    stiffness of body A, as K and ldk for signorini_solve
- * @param K_B,ldb    stiffness of body B
+ * @param K_A,lda,K_B,ldb  stiffness of each body, as K and ldk for signorini_solve
  * @param settings   as for signorini_model_new_condensed
  * @param model      out: the model
  */
@@ -376,18 +396,17 @@ void signorini_model_free(signorini_model *model);
 /** The content of a model. */
 struct signorini_model_data {
     uint32_t struct_size; /**< sizeof(signorini_model_data). */
-    int32_t dim;          /**< Space dimension, 2 or 3. */
-    int64_t pairs;        /**< Number of contact pairs. */
-    int64_t host_size;    /**< H, the entries of your load and displacement vectors. */
-    int64_t fixed;        /**< Number of fixed degrees of freedom: the entries of prescribed. */
+    int32_t dim;          /**< Space dimension. */
+    int64_t pairs;        /**< Number of pairs. */
+    int64_t host_size;    /**< H. */
+    int64_t fixed;        /**< Number of fixed degrees of freedom. */
     /**
      * Most bytes that a load case may take beside the model and your arrays. A call works on up to
      * 32 cases at once, each with some more vectors of H entries.
      */
     int64_t memory;
     int32_t kind;         /**< SIGNORINI_MODEL_... */
-    /** Number of pairs whose rows follow from those of other pairs or from supports. */
-    int32_t dependent;
+    int32_t dependent;    /**< Number of pairs whose rows follow from other pairs or supports. */
     /**
      * Stiffness in relative displacements, N columns of N entries. NULL if kind is not
      * SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.
@@ -450,9 +469,8 @@ int32_t signorini_model_recover(const signorini_model *model, int64_t cases, con
                                 const double *prescribed, const double *d, double *u);
 
 /**
- * Contact forces as your nodal forces. Sparse model: F on the slaves, the opposite on the masters,
- * or F by the signed weights. Two bodies: F on both, each in its own frame. Condensed model: F
- * itself.
+ * Contact forces as your nodal forces. Sparse model: F by the signed weights. Two bodies: F on
+ * both, each in its own frame. Condensed model: F itself.
  *
  * @param model  the model
  * @param F      contact forces, N
@@ -554,7 +572,7 @@ struct signorini_settings {
     int64_t max_iterations;
     /**
      * Most seconds of wall time; 0, the default, and infinity: no limit. A factorisation that would
-     * take longer is not begun: the call may end before the limit.
+     * take longer is not begun.
      */
     double time_limit;
     /**
@@ -620,7 +638,7 @@ int64_t signorini_solve_memory(int64_t n);
 
 /* Why the first method was abandoned. */
 #define SIGNORINI_FALLBACK_NONE 0       /**< The first method succeeded. */
-#define SIGNORINI_FALLBACK_CYCLE 1      /**< The states of the first method repeated. */
+#define SIGNORINI_FALLBACK_CYCLE 1      /**< Its states repeated. */
 #define SIGNORINI_FALLBACK_SINGULAR 2   /**< It met a singular system. */
 #define SIGNORINI_FALLBACK_UNSTABLE 3   /**< It found an unstable solution (orientation -1). */
 #define SIGNORINI_FALLBACK_INACCURATE 4 /**< It found no accurate solution. */
@@ -648,7 +666,7 @@ const char *signorini_remark_string(int32_t remark);
  */
 struct signorini_report {
     uint32_t struct_size;     /**< sizeof(signorini_report). */
-    int32_t status;           /**< The status of the result, as the call returns it. */
+    int32_t status;           /**< The status, as the call returns it. */
     int32_t method; /**< The method that found the result, SIGNORINI_METHOD_...; certify: 0. */
     int32_t uniqueness;       /**< SIGNORINI_UNIQUENESS_... */
     int64_t iterations;       /**< Sweeps, pivots or linear systems, of all methods tried. */
@@ -669,14 +687,14 @@ struct signorini_report {
     double cone_excess;
     double equilibrium;       /**< Largest component of K d - f - F; force. */
     double omega;             /**< Over-relaxation factor at the end; 0 if the method has none. */
-    double damping;           /**< Damping at the end; 0 if the method has none. */
+    double damping;           /**< Damping likewise. */
     int64_t pairs_open;       /**< Pairs of SIGNORINI_STATE_OPEN. */
     int64_t pairs_slipping;   /**< Pairs of SIGNORINI_STATE_SLIP. */
     int64_t pairs_sticking;   /**< Pairs of SIGNORINI_STATE_STICK. */
     /** Dense factorisations by Newton's method and block pivoting. In full space: sparse ones. */
     int64_t factorisations;
     int32_t first_method;     /**< The first method, SIGNORINI_METHOD_... */
-    int32_t fallback;         /**< Why the first method was abandoned, SIGNORINI_FALLBACK_... */
+    int32_t fallback;         /**< SIGNORINI_FALLBACK_... */
     /**
      * Sign of the determinant of the equations that the states select; 0: not known. -1: the
      * solution is unstable; if K is positive definite, at least two others exist.
@@ -714,8 +732,8 @@ struct signorini_extra {
      */
     double *motion;
     double *second_d; /**< Displacements of a second solution if report.second is 1; else zeros. */
-    double *second_F;      /**< Its contact forces; else zeros. */
-    int32_t *second_state; /**< Its states, one for each pair; else zeros. */
+    double *second_F;      /**< Its contact forces likewise. */
+    int32_t *second_state; /**< Its states likewise, one for each pair. */
     /**
      * With SIGNORINI_PROOF_PROVED the solution lies within this distance of d, component by
      * component; length. Else -1.
@@ -768,7 +786,7 @@ int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const doubl
 #define SIGNORINI_VERSION_PATCH 0 /**< Patch version. */
 #define SIGNORINI_ABI_VERSION 3   /**< Binary interface of this header. */
 
-/** Version of the library, such as "0.9.0"; static text. */
+/** Version, such as "0.9.0"; static text. */
 const char *signorini_version(void);
 
 /** Binary interface of the library; compare it with SIGNORINI_ABI_VERSION after dlopen. */
@@ -817,8 +835,8 @@ typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t ch
  */
 struct signorini_operator {
     uint32_t struct_size; /**< sizeof(signorini_operator). */
-    int32_t dim;          /**< Space dimension, 2 or 3. */
-    int64_t pairs;        /**< Number of contact pairs. */
+    int32_t dim;          /**< Space dimension. */
+    int64_t pairs;        /**< Number of pairs. */
     /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
     signorini_product_fn stiffness;
     /**
@@ -833,7 +851,7 @@ struct signorini_operator {
      * direction, from products.
      */
     const double *units;
-    void *user;           /**< Passed to the functions as their first argument. */
+    void *user;           /**< First argument of the functions. */
 };
 
 /**

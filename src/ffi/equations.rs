@@ -6,10 +6,9 @@ use super::sparse::shifted;
 use super::structures::{Structure, check_reserved};
 use crate::reduce::Equations;
 
-/// Equations u[dependent] = sum of coefficient * u[dof], in any order: multi-point constraints,
-/// rigid bodies, turned axes, cyclic sectors. Pairs may name dependents. A dependent that is a
-/// degree of freedom of the matrix is eliminated, and is not listed in fixed; one that is not may
-/// have any number. Contact forces come out on the others.
+/// Equations u[dependent] = sum of coefficient * u[dof], without terms 0: constraints, rigid
+/// bodies, turned axes, cyclic sectors. Pairs may name dependents. Those of K are eliminated, with
+/// their loads; others have any number. Contact forces come out on the rest.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniEquations {
@@ -19,13 +18,13 @@ pub struct SignoriniEquations {
     pub reserved: i32,
     /// Number of equations.
     pub count: i64,
-    /// The degree of freedom that each equation gives.
+    /// One of each equation, not in fixed.
     pub dependent: *const i64,
-    /// Start of each equation's terms, count + 1 entries from index_base.
+    /// Start of each equation's terms, as master_start.
     pub start: *const i64,
-    /// Degree of freedom of each term; none: u[dependent] = 0.
+    /// Degree of freedom of each term.
     pub dofs: *const i64,
-    /// Coefficient of each term.
+    /// Of each term.
     pub coefficients: *const f64,
 }
 

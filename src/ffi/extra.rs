@@ -23,9 +23,9 @@ pub struct SignoriniExtra {
     pub motion: *mut f64,
     /// Displacements of a second solution if report.second is 1; else zeros.
     pub second_d: *mut f64,
-    /// Its contact forces; else zeros.
+    /// Its contact forces likewise.
     pub second_F: *mut f64,
-    /// Its states, one for each pair; else zeros.
+    /// Its states likewise, one for each pair.
     pub second_state: *mut i32,
     /// With SIGNORINI_PROOF_PROVED the solution lies within this distance of d, component by
     /// component; length. Else -1.

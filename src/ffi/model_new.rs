@@ -51,8 +51,7 @@ fn of_matrices(wrong: Argument) -> i32 {
 /// that neither resists is refused. Loads and displacements are [A; B], H = 2 N.
 ///
 /// @param dim,pairs  as for signorini_solve
-/// @param K_A,lda    stiffness of body A, as K and ldk for signorini_solve
-/// @param K_B,ldb    stiffness of body B
+/// @param K_A,lda,K_B,ldb  stiffness of each body, as K and ldk for signorini_solve
 /// @param settings   as for signorini_model_new_condensed
 /// @param model      out: the model
 #[unsafe(no_mangle)]
@@ -83,13 +82,13 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 /// and contact zones. Contact alone may support a body. H = K->size.
 ///
 /// If the condensed matrix needs more than memory_limit, the model is in full space: load cases
-/// are solved by Newton's method with GMRES on a sparse factor that is made anew a few times in
+/// are solved by Newton's method with GMRES on a sparse factor, made anew a few times in
 /// each, methods AUTO and NEWTON alone; search and settings.proof are refused. Pairs that depend on
 /// each other are condensed all the same.
 ///
 /// @param K         the stiffness of all degrees of freedom, the fixed ones too
 /// @param n_fixed   number of fixed degrees of freedom
-/// @param fixed     these degrees of freedom, counted from K->index_base
+/// @param fixed     these degrees of freedom
 /// @param pairs     the contact pairs
 /// @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
 ///                  and full_space. Ordering asks the callback every 0.2 s (1e5 unknowns)

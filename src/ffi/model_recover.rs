@@ -71,9 +71,8 @@ fn position(argument: Argument) -> i32 {
     }
 }
 
-/// Contact forces as your nodal forces. Sparse model: F on the slaves, the opposite on the masters,
-/// or F by the signed weights. Two bodies: F on both, each in its own frame. Condensed model: F
-/// itself.
+/// Contact forces as your nodal forces. Sparse model: F by the signed weights. Two bodies: F on
+/// both, each in its own frame. Condensed model: F itself.
 ///
 /// @param model  the model
 /// @param F      contact forces, N

@@ -30,20 +30,20 @@ numbers! {
 pub struct SignoriniModelData {
     /// sizeof(signorini_model_data).
     pub struct_size: u32,
-    /// Space dimension, 2 or 3.
+    /// Space dimension.
     pub dim: i32,
-    /// Number of contact pairs.
+    /// Number of pairs.
     pub pairs: i64,
-    /// H, the entries of your load and displacement vectors.
+    /// H.
     pub host_size: i64,
-    /// Number of fixed degrees of freedom: the entries of prescribed.
+    /// Number of fixed degrees of freedom.
     pub fixed: i64,
     /// Most bytes that a load case may take beside the model and your arrays. A call works on up to
     /// 32 cases at once, each with some more vectors of H entries.
     pub memory: i64,
     /// SIGNORINI_MODEL_...
     pub kind: i32,
-    /// Number of pairs whose rows follow from those of other pairs or from supports.
+    /// Number of pairs whose rows follow from other pairs or supports.
     pub dependent: i32,
     /// Stiffness in relative displacements, N columns of N entries. NULL if kind is not
     /// SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.

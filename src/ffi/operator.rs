@@ -36,9 +36,9 @@ pub type SignoriniHeldFn = Option<
 pub struct SignoriniOperator {
     /// sizeof(signorini_operator).
     pub struct_size: u32,
-    /// Space dimension, 2 or 3.
+    /// Space dimension.
     pub dim: i32,
-    /// Number of contact pairs.
+    /// Number of pairs.
     pub pairs: i64,
     /// y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for.
     pub stiffness: SignoriniProductFn,
@@ -50,7 +50,7 @@ pub struct SignoriniOperator {
     /// Positive numbers of the size of the diagonal of K_rel, N; force / length. NULL: one for each
     /// direction, from products.
     pub units: *const f64,
-    /// Passed to the functions as their first argument.
+    /// First argument of the functions.
     pub user: *mut c_void,
 }
 

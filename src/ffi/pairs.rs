@@ -16,12 +16,13 @@ use crate::reduce::ContactPairs;
 /// The gap is closed at d_n = gap:
 ///     u_slave = sum of weight * u_master + n d_n + t d_t      (3D: + t1 d_t1 + t2 d_t2)
 ///
-/// General rows, as mortar methods make them: slaves, master_start, masters and weights are NULL,
-/// and each pair is a list of nodes with signed weights: n d_n + t d_t = sum of row_weight * u.
+/// General rows, as of mortar methods: slaves, master_start, masters and weights are NULL, and
+/// n d_n + t d_t = sum of row_weight * u over nodes or, as of rigid bodies, of row_vector * u over
+/// degrees of freedom.
 ///
-/// A node may stand in any number of pairs, as slave and as master, and may be fixed. Where all
-/// nodes of a pair are fixed along its normal or a tangent, d and F are zero along it. Pairs may
-/// depend on each other, as those of a node on two planes: then contact forces are not unique.
+/// A node may stand in any number of pairs, as slave and master, and be fixed. Where a pair is held
+/// along its normal or a tangent, d and F are zero along it. Pairs may depend on each other, as
+/// those of a node on two planes: then contact forces are not unique.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniPairs {
@@ -31,11 +32,11 @@ pub struct SignoriniPairs {
     pub dim: i32,
     /// Number of pairs.
     pub count: i64,
-    /// Degrees of freedom of each slave node, dim for each, in the order of the axes.
+    /// Degrees of freedom of each slave node, in the order of the axes.
     pub slaves: *const i64,
     /// Start of each pair's masters, count + 1 entries from index_base. NULL: no pair has any.
     pub master_start: *const i64,
-    /// Degrees of freedom of each master node, dim for each.
+    /// Those of each master node.
     pub masters: *const i64,
     /// Weight of each master node, negative ones too; those of a pair sum to 1.
     pub weights: *const f64,
@@ -44,17 +45,16 @@ pub struct SignoriniPairs {
     /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1. NULL:
     /// chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the first axis most across n.
     pub tangents: *const f64,
-    /// General rows: start of each pair's nodes, count + 1 entries from index_base; else NULL.
+    /// General rows: start of each pair's nodes, as master_start; else NULL.
     pub row_start: *const i64,
-    /// Degrees of freedom of each node, as slaves.
+    /// Those of each node.
     pub row_nodes: *const i64,
     /// Weight of each node: positive on the side whose outward normal is given, else negative.
     /// Those of a pair sum to 0, and against a rigid obstacle to 1.
     pub row_weights: *const f64,
-    /// General rows by degree of freedom, as of rigid bodies: row_nodes has one for each entry,
-    /// row_weights is NULL, and here are dim numbers for each: n d_n + t d_t = sum of vector * u.
+    /// dim numbers for each of row_nodes, which are degrees of freedom then; row_weights is NULL.
     pub row_vectors: *const f64,
-    /// Equations by which degrees of freedom follow from others; NULL: none.
+    /// NULL: none.
     pub equations: *const SignoriniEquations,
 }
 

@@ -34,7 +34,7 @@ pub const SIGNORINI_PROOF_NOT_PROVED: i32 = 2;
 
 /// The first method succeeded.
 pub const SIGNORINI_FALLBACK_NONE: i32 = 0;
-/// The states of the first method repeated.
+/// Its states repeated.
 pub const SIGNORINI_FALLBACK_CYCLE: i32 = 1;
 /// It met a singular system.
 pub const SIGNORINI_FALLBACK_SINGULAR: i32 = 2;
@@ -62,7 +62,7 @@ pub const SIGNORINI_REMARK_NEEDS_LOW_PART: i32 = 16;
 pub struct SignoriniReport {
     /// sizeof(signorini_report).
     pub struct_size: u32,
-    /// The status of the result, as the call returns it.
+    /// The status, as the call returns it.
     pub status: i32,
     /// The method that found the result, SIGNORINI_METHOD_...; certify: 0.
     pub method: i32,
@@ -89,7 +89,7 @@ pub struct SignoriniReport {
     pub equilibrium: f64,
     /// Over-relaxation factor at the end; 0 if the method has none.
     pub omega: f64,
-    /// Damping at the end; 0 if the method has none.
+    /// Damping likewise.
     pub damping: f64,
     /// Pairs of SIGNORINI_STATE_OPEN.
     pub pairs_open: i64,
@@ -101,7 +101,7 @@ pub struct SignoriniReport {
     pub factorisations: i64,
     /// The first method, SIGNORINI_METHOD_...
     pub first_method: i32,
-    /// Why the first method was abandoned, SIGNORINI_FALLBACK_...
+    /// SIGNORINI_FALLBACK_...
     pub fallback: i32,
     /// Sign of the determinant of the equations that the states select; 0: not known. -1: the
     /// solution is unstable; if K is positive definite, at least two others exist.

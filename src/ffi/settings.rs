@@ -84,7 +84,7 @@ pub struct SignoriniSettings {
     /// Most sweeps, pivots or linear systems, at least 1; default 200000.
     pub max_iterations: i64,
     /// Most seconds of wall time; 0, the default, and infinity: no limit. A factorisation that would
-    /// take longer is not begun: the call may end before the limit.
+    /// take longer is not begun.
     pub time_limit: f64,
     /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
     /// d = 0, block pivoting from all pairs closed. Lemke's method has no start.

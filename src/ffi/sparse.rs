@@ -29,7 +29,7 @@ pub struct SignoriniSparse {
     pub index_bytes: i32,
     /// Number of the first row, 0 or 1: all degrees of freedom of the call count from it.
     pub index_base: i32,
-    /// Which entries are stored, SIGNORINI_TRIANGLE_...
+    /// SIGNORINI_TRIANGLE_...
     pub triangle: i32,
     /// Number of rows and columns.
     pub size: i64,

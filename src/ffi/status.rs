@@ -29,7 +29,7 @@ pub const SIGNORINI_STATUS_NOT_PROVED: i32 = 7;
 pub const SIGNORINI_STATUS_MEMORY_LIMIT: i32 = 8;
 /// A caught defect of the library: results undefined.
 pub const SIGNORINI_STATUS_INTERNAL: i32 = -1000;
-/// Out of memory: only earlier load cases were written, and the call holds nothing.
+/// Out of memory: only earlier load cases were written.
 pub const SIGNORINI_STATUS_OUT_OF_MEMORY: i32 = -1001;
 /// A file cannot be read or written.
 pub const SIGNORINI_STATUS_FILE: i32 = -1002;
@@ -64,7 +64,7 @@ numbers! {
     }
 }
 
-/// Version of the library, such as "0.9.0"; static text.
+/// Version, such as "0.9.0"; static text.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
@@ -79,7 +79,7 @@ pub extern "C" fn signorini_abi_version() -> i32 {
 /// Statuses from this one to -1 are reserved for arguments.
 const LAST_ARGUMENT: i32 = -99;
 
-/// Static text that describes a status, such as "solved"; never NULL, for any number.
+/// Static text that describes any status, such as "solved"; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
     let text = match status {

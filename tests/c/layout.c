@@ -154,7 +154,7 @@ FIELD(signorini_sparse, row, void *, 40);
 FIELD(signorini_sparse, values, double *, 48);
 FIELD(signorini_sparse, order, void *, 56);
 
-SIZE(signorini_pairs, 88);
+SIZE(signorini_pairs, 104);
 FIELD(signorini_pairs, struct_size, uint32_t, 0);
 FIELD(signorini_pairs, dim, int32_t, 4);
 FIELD(signorini_pairs, count, int64_t, 8);
@@ -167,6 +167,17 @@ FIELD(signorini_pairs, tangents, double *, 56);
 FIELD(signorini_pairs, row_start, int64_t *, 64);
 FIELD(signorini_pairs, row_nodes, int64_t *, 72);
 FIELD(signorini_pairs, row_weights, double *, 80);
+FIELD(signorini_pairs, row_vectors, double *, 88);
+FIELD(signorini_pairs, equations, signorini_equations *, 96);
+
+SIZE(signorini_equations, 48);
+FIELD(signorini_equations, struct_size, uint32_t, 0);
+FIELD(signorini_equations, reserved, int32_t, 4);
+FIELD(signorini_equations, count, int64_t, 8);
+FIELD(signorini_equations, dependent, int64_t *, 16);
+FIELD(signorini_equations, start, int64_t *, 24);
+FIELD(signorini_equations, dofs, int64_t *, 32);
+FIELD(signorini_equations, coefficients, double *, 40);
 
 SIZE(signorini_extra, 72);
 FIELD(signorini_extra, struct_size, uint32_t, 0);
