@@ -238,8 +238,18 @@ module signorini
         type(c_ptr) :: order = c_null_ptr
     end type
 
+    type, bind(C) :: signorini_equations
+        integer(c_int32_t) :: struct_size = 16 + 4 * address_bytes
+        integer(c_int32_t) :: reserved = 0
+        integer(c_int64_t) :: count = 0
+        type(c_ptr) :: dependent = c_null_ptr
+        type(c_ptr) :: start = c_null_ptr
+        type(c_ptr) :: dofs = c_null_ptr
+        type(c_ptr) :: coefficients = c_null_ptr
+    end type
+
     type, bind(C) :: signorini_pairs
-        integer(c_int32_t) :: struct_size = 16 + 9 * address_bytes
+        integer(c_int32_t) :: struct_size = 16 + 11 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: count = 0
         type(c_ptr) :: slaves = c_null_ptr
@@ -251,6 +261,8 @@ module signorini
         type(c_ptr) :: row_start = c_null_ptr
         type(c_ptr) :: row_nodes = c_null_ptr
         type(c_ptr) :: row_weights = c_null_ptr
+        type(c_ptr) :: row_vectors = c_null_ptr
+        type(c_ptr) :: equations = c_null_ptr
     end type
 
     type, bind(C) :: signorini_model_data
@@ -1102,11 +1114,11 @@ contains
     ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
     ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
     ! is rigid. order: the order of elimination, each degree of freedom once; absent: chosen. settings:
-    ! progress, user, time_limit, memory_limit, full_space and threads count. If the library finds something
-    ! wrong in the matrix, info is the position of values, if in the pairs, that of slaves; message tells the
-    ! array.
+    ! progress, user, time_limit, memory_limit, full_space and threads count. equations: what contact_equations
+    ! returns. If the library finds something wrong in the matrix, info is the position of values, if in the
+    ! pairs or equations, that of slaves; message tells the array.
     subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
-            master_start, masters, weights, tangents, message, order, settings)
+            master_start, masters, weights, tangents, message, order, settings, equations)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1119,6 +1131,7 @@ contains
         character(len=*), intent(out), optional :: message
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
+        type(signorini_equations), intent(in), optional :: equations
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: of_slaves(:), begins(:), of_masters(:)
         type(refusal) :: wrong
@@ -1140,8 +1153,28 @@ contains
             pairs%weights = address(weights)
         end if
         call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, [3, 8, 8, 5, 15], order, settings)
+            info, message, [3, 8, 8, 5, 15], order, settings, equations)
     end subroutine
+
+    ! Equations between degrees of freedom, u(dependent(i)) = sum of coefficients(k) * u(dofs(k)), k from start(i) to
+    ! start(i + 1) - 1, for new_sparse, new_sparse_rows and new_surfaces. signorini_equations in signorini.h says what
+    ! they may be. The arrays must stay until the model is made.
+    function contact_equations(dependent, start, dofs, coefficients) result(equations)
+        integer(c_int64_t), intent(in), contiguous, target :: dependent(:), start(:), dofs(:)
+        real(c_double), intent(in), contiguous, target :: coefficients(:)
+        type(signorini_equations) :: equations
+        equations%count = size(dependent)
+        if (size(dependent) == 0) return
+        ! The library refuses a number below zero.
+        if (size(start) /= size(dependent) + 1 .or. size(dofs) /= size(coefficients)) equations%count = -1
+        if (equations%count > 0) then
+            if (start(size(start)) /= size(dofs) + 1) equations%count = -1
+        end if
+        equations%dependent = c_loc(dependent)
+        equations%start = c_loc(start)
+        if (size(dofs) > 0) equations%dofs = c_loc(dofs)
+        equations%coefficients = address(coefficients)
+    end function
 
     ! new_sparse with general rows: each pair is a list of nodes with signed weights.
     ! row_nodes(dim, m): degrees of freedom of all nodes, row_weights(m): positive on the side whose
@@ -1149,7 +1182,7 @@ contains
     ! obstacle; row_start(pairs + 1): those of pair i are row_start(i) to row_start(i + 1) - 1. If
     ! the library finds something wrong in the pairs, info is the position of row_nodes.
     subroutine model_new_sparse_rows(self, col_start, row, values, triangle, row_start, row_nodes, &
-            row_weights, normals, info, fixed, tangents, message)
+            row_weights, normals, info, fixed, tangents, message, equations)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1160,6 +1193,7 @@ contains
         integer, intent(in), optional :: fixed(:)
         real(c_double), intent(in), contiguous, target, optional :: tangents(:, :)
         character(len=*), intent(out), optional :: message
+        type(signorini_equations), intent(in), optional :: equations
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: begins(:), of_nodes(:)
         type(refusal) :: wrong
@@ -1178,12 +1212,12 @@ contains
         if (size(row_nodes) > 0) pairs%row_nodes = c_loc(of_nodes)
         pairs%row_weights = address(row_weights)
         call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, [3, 10, 10, 6, 0])
+            info, message, [3, 10, 10, 6, 0], equations=equations)
     end subroutine
 
     ! Makes a model of a sparse matrix with pairs that have their nodes.
     subroutine make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
-            info, message, positions, order, settings)
+            info, message, positions, order, settings, equations)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1197,18 +1231,20 @@ contains
         integer, intent(in) :: positions(5)
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
+        type(signorini_equations), intent(in), optional :: equations
         pairs%dim = number(size(normals, 1))
         pairs%count = size(normals, 2)
         pairs%normals = address2(normals)
         pairs%tangents = address2(tangents)
         call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
-            positions, order, settings)
+            positions, order, settings, equations)
     end subroutine
 
     ! A model of a whole sparse matrix, as for new_sparse, with the pairs of surfaces. If the library
     ! finds something wrong in the matrix, info is the position of values, if in the pairs, that of
     ! surfaces. The gap of a load case is surfaces%gap.
-    subroutine model_new_surfaces(self, col_start, row, values, triangle, surfaces, info, fixed, message)
+    subroutine model_new_surfaces(self, col_start, row, values, triangle, surfaces, info, fixed, message, &
+            equations)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1217,6 +1253,7 @@ contains
         integer, intent(out) :: info
         integer, intent(in), optional :: fixed(:)
         character(len=*), intent(out), optional :: message
+        type(signorini_equations), intent(in), optional :: equations
         type(signorini_pairs), pointer :: pairs
         type(refusal) :: wrong
         call self%release()
@@ -1225,12 +1262,12 @@ contains
         if (refused(wrong, info, message)) return
         call c_f_pointer(surfaces%data%rows, pairs)
         call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
-            [3, 7, 7, 5, 0])
+            [3, 7, 7, 5, 0], equations=equations)
     end subroutine
 
     ! Makes a model of a sparse matrix with pairs that are complete.
     subroutine finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
-            positions, order, settings)
+            positions, order, settings, equations)
         class(contact_model), intent(inout) :: self
         integer, intent(in), contiguous, target :: col_start(:), row(:)
         real(c_double), intent(in), contiguous, target :: values(:)
@@ -1242,7 +1279,10 @@ contains
         integer, intent(in) :: positions(5)
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
+        type(signorini_equations), intent(in), optional :: equations
         type(signorini_settings), target :: chosen
+        type(signorini_equations), target :: given
+        type(signorini_pairs) :: complete
         type(signorini_sparse) :: matrix
         integer(c_int64_t), allocatable, target :: held(:)
         integer(c_int64_t) :: n_fixed
@@ -1251,12 +1291,17 @@ contains
             if (size(order) > 0) matrix%order = c_loc(order)
         end if
         if (present(settings)) chosen = settings
+        complete = pairs
+        if (present(equations)) then
+            given = equations
+            complete%equations = c_loc(given)
+        end if
         n_fixed = 0
         if (present(fixed)) n_fixed = size(fixed)
         allocate (held(max(1_c_int64_t, n_fixed)))
         held = 0
         if (n_fixed > 0) held = int(fixed, c_int64_t)
-        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), pairs, &
+        call finish(signorini_model_new_sparse(matrix, n_fixed, c_loc(held), complete, &
             c_loc(chosen), self%handle), info, message, positions)
         call keep_sizes(self)
     end subroutine

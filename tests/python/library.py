@@ -28,7 +28,7 @@ FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, 
             Obstacle, Problem)
 STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.Report: "report", structures.Extra: "extra", structures.Sparse: "sparse",
-              structures.Pairs: "pairs", structures.Faces: "faces",
+              structures.EquationList: "equations", structures.Pairs: "pairs", structures.Faces: "faces",
               structures.RigidObstacle: "obstacle", structures.SurfaceSettings: "surface_settings",
               structures.ModelData: "model_data", structures.SurfaceData: "surface_data",
               structures.Zone: "zone", structures.ProblemData: "problem_data",

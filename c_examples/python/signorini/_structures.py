@@ -91,6 +91,15 @@ class Operator(ctypes.Structure):
     ]
 
 
+class EquationList(ctypes.Structure):
+    """signorini_equations"""
+
+    _fields_ = [
+        ("struct_size", u32), ("reserved", i32), ("count", i64), ("dependent", address),
+        ("start", address), ("dofs", address), ("coefficients", address),
+    ]
+
+
 class Pairs(ctypes.Structure):
     """signorini_pairs"""
 
@@ -98,7 +107,8 @@ class Pairs(ctypes.Structure):
         ("struct_size", u32), ("dim", i32), ("count", i64), ("slaves", address),
         ("master_start", address), ("masters", address), ("weights", address),
         ("normals", address), ("tangents", address), ("row_start", address),
-        ("row_nodes", address), ("row_weights", address),
+        ("row_nodes", address), ("row_weights", address), ("row_vectors", address),
+        ("equations", address),
     ]
 
 
