@@ -21,6 +21,7 @@
 !                      %new_flexibility_sparse, %new_sparse or %new_sparse_rows, %new_surfaces,
 !                      %new_operator, then %solve, %certify, %prove, %recover, %nodal_forces, %frames,
 !                      %condensed_load, %stiffness, %view, at the end %release
+!     contact_equations  equations between degrees of freedom, for a model of a sparse matrix
 !     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
 !                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
 !                      %write, at the end %release
