@@ -22,3 +22,4 @@ mod sparse_order;
 mod sparse_pairs;
 mod sparse_supports;
 mod two_body;
+mod whole_models;

@@ -42,6 +42,8 @@ enum RowPlace {
 struct KeptRows<'r> {
     dim: usize,
     frames: &'r [Frame],
+    /// The components that supports hold.
+    held: Vec<bool>,
     /// The place of each degree of freedom among the fixed ones.
     fixed: &'r [Option<usize>],
     places: Vec<RowPlace>,
@@ -165,8 +167,8 @@ impl<'r> KeptRows<'r> {
         solved: &Solved,
         supports: &mut [FixedComponent],
     ) -> Self {
-        let mut held = vec![0; frames.len()];
-        supports.iter().for_each(|support| held[support.pair] += 1);
+        let mut held = vec![false; dim * frames.len()];
+        supports.iter().for_each(|support| held[support.component] = true);
         let mut kept = 0;
         let mut next = || {
             kept += 1;
@@ -176,7 +178,8 @@ impl<'r> KeptRows<'r> {
             .map(|pair| {
                 let is_independent = |axis: usize| dependent(solved, pair, dim, axis).is_none();
                 let independent = (0..dim).filter(|&axis| is_independent(axis)).count();
-                if independent + held[pair] == dim {
+                let own = &held[dim * pair..dim * (pair + 1)];
+                if independent + own.iter().filter(|held| **held).count() == dim {
                     let first = next();
                     (1..dim).for_each(|_| _ = next());
                     RowPlace::Frame(first)
@@ -192,7 +195,7 @@ impl<'r> KeptRows<'r> {
                 support.variable = first + support.component % dim;
             }
         }
-        KeptRows { dim, frames, fixed, places, kept }
+        KeptRows { dim, frames, held, fixed, places, kept }
     }
 
     /// The right side of an independent equation in variables.
@@ -200,10 +203,10 @@ impl<'r> KeptRows<'r> {
         let (pair, axis) = (equation / self.dim, equation % self.dim);
         match &self.places[pair] {
             RowPlace::Frame(first) => {
+                // What is held moves nothing.
                 let directions = self.frames[pair].directions().enumerate();
-                directions
-                    .map(|(component, direction)| (first + component, direction[axis]))
-                    .collect()
+                let moves = directions.filter(|(c, _)| !self.held[self.dim * pair + c]);
+                moves.map(|(c, direction)| (first + c, direction[axis])).collect()
             }
             RowPlace::Axes(places) => places[axis].map(|place| (place, 1.0)).into_iter().collect(),
         }
