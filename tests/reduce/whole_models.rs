@@ -215,7 +215,7 @@ fn skewed_symmetry() {
         fixed: vec![],
         equations: equations.collect(),
         rows: rows_of(&own.row(0).iter().map(|&node| vec![(node, 1.0)]).collect::<Vec<_>>()),
-        normals: vec![normal; 7].concat(),
+        normals: [normal; 7].concat(),
         tangents: None,
     };
     solutions(&structure, &load, &[0.0; 7], 0.2, &mut |model, solution, u| {

@@ -154,7 +154,7 @@ class Model:
 
     @classmethod
     def sparse(cls, K, slaves=None, normals=None, *, fixed=(), masters=None, weights=None,
-               tangents=None, rows=None, triangle="full", order=None, **settings):
+               tangents=None, rows=None, equations=None, triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host, without supports, and contact pairs.
 
         K: a scipy.sparse matrix, or (data, indices, indptr) by columns, rows ascending; counted
@@ -169,22 +169,26 @@ class Model:
         chosen, in 2D the normal turned by +90 degrees. frames gives what the model uses.
         rows: in the place of slaves, masters and weights, for each pair (dofs, weights): the dof
         numbers of all its nodes, (k, D), and k signed weights, positive on the side whose normal is
-        given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs.
+        given; of sum 0, and 1 against a rigid obstacle. Nodes may stand in any number of pairs. Or
+        (dofs, vectors): k dof numbers, and a vector of D numbers for each, (k, D).
+        equations: (dependent, dofs, coefficients) for each, u[dependent] = coefficients @ u[dofs], in any order.
+        Pairs may name dependents; one that K has is eliminated, others have any number. See
+        turned_equations, rigid_equations and read_equations.
         order: order of elimination, each dof number once; None: chosen.  settings: progress,
         time_limit (seconds), memory_limit (bytes) and full_space; a limit that is passed, or a
         progress function that cancels, raises SignoriniError. With full_space, or if the condensed
         matrix needs more than memory_limit, none is formed: there is no stiffness then.
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
-        pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows)
+        pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows, equations)
         return cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                    ctypes.byref(pairs.structure), settings=settings)
 
     @classmethod
-    def from_surfaces(cls, K, contact, *, fixed=(), triangle="full", order=None, **settings):
+    def from_surfaces(cls, K, contact, *, fixed=(), equations=None, triangle="full", order=None, **settings):
         """The whole stiffness matrix of the host with the pairs of pair_surfaces or pair_obstacle.
 
-        K, fixed, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
+        K, fixed, equations, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
         Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
         in one zone and master in another. gap, mu, g, friction and slip0 of a case may then be a dict too, with
@@ -195,9 +199,9 @@ class Model:
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
-        rows = zones.rows() if zones else None
+        rows = zones.rows(equations) if zones else contact.with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
-                    ctypes.byref(rows.structure) if zones else contact.structure, settings=settings)
+                    ctypes.byref(rows.structure), settings=settings)
         model.contact, model._zones = contact, zones
         return model
 

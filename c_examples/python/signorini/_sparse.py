@@ -4,6 +4,7 @@ import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
 from ._constants import Triangle, chosen
+from ._equations import Equations
 from ._structures import Pairs, Sparse, sized
 
 
@@ -41,8 +42,9 @@ class Matrix:
 class ContactPairs:
     """Contact pairs; structure: signorini_pairs."""
 
-    def __init__(self, slaves, normals, masters, weights, tangents, rows):
+    def __init__(self, slaves, normals, masters, weights, tangents, rows, equations=None):
         self.slaves = self.starts = self.masters = self.weights = None
+        self.equations = None if equations is None else Equations(equations)
         if rows is None:
             names, (count, dim) = ("master_start", "masters", "weights"), self._of_slaves(
                 slaves, masters, weights)
@@ -50,7 +52,7 @@ class ContactPairs:
             if not (slaves is None and masters is None and weights is None):
                 raise ValueError("rows is given with slaves, masters or weights: a row names all "
                                  "nodes of its pair, leave the others out")
-            names, (count, dim) = ("row_start", "row_nodes", "row_weights"), self._of_rows(rows)
+            names, (count, dim) = self._of_rows(rows)
         self.normals, self.tangents = (
             _vectors(name, given, count, dim, name == "tangents")
             for name, given in (("normals", normals), ("tangents", tangents))
@@ -58,7 +60,8 @@ class ContactPairs:
         nodes = dict(zip(names, (at(self.starts), at(self.masters), at(self.weights))))
         self.structure = sized(
             Pairs, dim=dim, count=count, slaves=at(self.slaves), normals=at(self.normals),
-            tangents=at(self.tangents), **nodes,
+            tangents=at(self.tangents), equations=self.equations and self.equations.address,
+            **nodes,
         )
 
     def _of_slaves(self, slaves, masters, weights):
@@ -76,18 +79,33 @@ class ContactPairs:
         return count, dim
 
     def _of_rows(self, rows):
-        asked = "give (dofs, weights) for each pair: the dof numbers of its nodes, (k, D), and k weights"
+        asked = ("give (dofs, weights) for each pair: the dof numbers of its nodes, (k, D), and k weights; or k dof "
+                 "numbers and (k, D) vectors")
         try:
             nodes = [dofs for dofs, _ in rows]
             weights = [weights for _, weights in rows]
         except (TypeError, ValueError):
             raise ValueError(f"rows is no list of pairs: {asked}") from None
         shapes = {np.shape(dofs)[1:] for dofs in nodes}
+        if shapes == {()}:
+            return ("row_start", "row_nodes", "row_vectors"), self._of_dofs(nodes, weights, asked)
         if len(shapes) != 1 or shapes not in ({(2,)}, {(3,)}):
             raise ValueError(f"rows has nodes of the shapes {sorted(shapes)}: {asked}, D 2 or 3")
         (dim,), count = shapes.pop(), len(nodes)
         self._take(nodes, weights, count, dim)
-        return count, dim
+        return ("row_start", "row_nodes", "row_weights"), (count, dim)
+
+    def _of_dofs(self, dofs, vectors, asked):
+        dofs = [integers(f"rows[{pair}]", of) for pair, of in enumerate(dofs)]
+        vectors = [reals(f"rows[{pair}]", of) for pair, of in enumerate(vectors)]
+        dim = vectors[0].shape[-1] if vectors[0].ndim else 0
+        for pair, (of, numbers) in enumerate(zip(dofs, vectors)):
+            if dim not in (2, 3) or numbers.shape != (*of.shape, dim):
+                raise ValueError(f"rows[{pair}] has the shapes {of.shape} and {numbers.shape}: {asked}")
+        self.starts = indices(np.cumsum([0, *map(len, dofs)]))
+        self.masters = indices(np.concatenate(dofs))
+        self.weights = doubles(np.concatenate(vectors))
+        return len(dofs), dim
 
     def _take(self, masters, weights, count, dim):
         _one_each("masters", masters, count)

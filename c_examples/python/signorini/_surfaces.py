@@ -10,6 +10,7 @@ import numpy as np
 from ._arrays import at, components, copied, doubles, fit, indices, integers, per_pair, reals
 from ._call import Call
 from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
+from ._equations import Equations
 from ._library import SignoriniError, check, library
 from ._mesh import Cells, points
 from ._structures import (ContactFields, Faces, Pairs, ResultantSums, RigidObstacle, SurfaceData,
@@ -208,6 +209,14 @@ class SurfacePairs:
         dofs = copied(pairs.row_nodes, (ends[-1], self.dim), i64)
         weights = copied(pairs.row_weights, (ends[-1],))
         return [(dofs[begin:end], weights[begin:end]) for begin, end in zip(ends, ends[1:])]
+
+    def with_equations(self, equations):
+        """The pairs for the library with equations between degrees of freedom, or None."""
+        pairs = SimpleNamespace(structure=Pairs.from_buffer_copy(Pairs.from_address(self.structure)))
+        if equations is not None:
+            pairs.equations = Equations(equations)
+            pairs.structure.equations = pairs.equations.address
+        return pairs
 
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.

@@ -35,10 +35,11 @@ class Zones:
         """An array of all zones."""
         return np.concatenate([getattr(contact, name) for contact in self.contacts.values()])
 
-    def rows(self):
+    def rows(self, equations):
         """The pairs of all zones."""
         rows = [row for contact in self.contacts.values() for row in contact.rows]
-        return ContactPairs(None, self.all("normals"), None, None, self.all("tangents"), rows)
+        return ContactPairs(None, self.all("normals"), None, None, self.all("tangents"), rows,
+                            equations)
 
     def joined(self, what, values):
         """Numbers for each pair from those of each zone by name; other values as they are."""

@@ -1,0 +1,122 @@
+"""The Python package: rows by degree of freedom, equations between degrees of freedom, and decks that have them.
+
+    python3 tests/python/equations.py
+"""
+
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+from common import ROOT  # noqa: F401
+
+import signorini
+
+# Any definite matrix serves as a stiffness.
+rng = np.random.default_rng(1)
+
+
+def definite(size):
+    factor = rng.normal(size=(size, size))
+    return factor @ factor.T + np.eye(size)
+
+
+def sparse(dense):
+    size = len(dense)
+    return dense.T.ravel(), np.tile(np.arange(size), size), size * np.arange(size + 1)
+
+
+class Rows(unittest.TestCase):
+    def test_vectors_are_weights_of_nodes(self):
+        K = sparse(definite(12))
+        nodes = [([[0, 1, 2], [3, 4, 5]], [1, -1]), ([[6, 7, 8]], [1])]
+        normals = [[0, 0, -1], [0, 1, 1]]
+        vectors = [(np.ravel(dofs), np.kron(np.reshape(weights, (-1, 1)), np.eye(3))) for dofs, weights in nodes]
+        mine, theirs = (signorini.Model.sparse(K, rows=rows, normals=normals) for rows in (vectors, nodes))
+        np.testing.assert_array_equal(mine.stiffness, theirs.stiffness)
+
+    def test_a_rigid_body(self):
+        """Six degrees of freedom, by equations and by vectors that are made here: the host has eliminated."""
+        places, reference = rng.normal(size=(4, 3)), np.array([0.3, -0.2, 0.5])
+        K, motion, labels = definite(6 + 3), [0, 1, 2, 3, 4, 5], 100 + np.arange(12).reshape(4, 3)
+        equations = signorini.rigid_equations(labels, places, reference, motion)
+        slave = signorini.Model.sparse(sparse(K), labels[:1], [0, 0, -1], masters=[[[6, 7, 8]]], equations=equations)
+        arm = places[0] - reference
+        cross = np.array([np.cross(unit, arm) for unit in np.eye(3)])
+        vectors = np.concatenate([np.eye(3), cross, -np.eye(3)])
+        by_dof = signorini.Model.sparse(sparse(K), rows=[(range(9), vectors)], normals=[0, 0, -1])
+        np.testing.assert_allclose(slave.stiffness, by_dof.stiffness, rtol=1e-12)
+        self.assertLess(abs(signorini.rigid_equations([[9, 8]], [[2, 3]], [1, 1], [0, 1, 2])[0][2][2] + 2), 1e-15)
+
+    def test_turned_axes_change_nothing(self):
+        K, turn = definite(6), np.array([[0.8, -0.6], [0.6, 0.8]])
+        pair = {"slaves": [[2, 3]], "normals": [0, -1], "masters": [[[4, 5]]]}
+        plain = signorini.Model.sparse(sparse(K), **pair)
+        Q = np.eye(6)
+        Q[2:4, 2:4] = turn
+        own = dict(pair, slaves=[[20, 21]])
+        equations = signorini.turned_equations([[20, 21]], [[2, 3]], turn)
+        turned = signorini.Model.sparse(sparse(Q.T @ K @ Q), equations=equations, **own)
+        np.testing.assert_allclose(turned.stiffness, plain.stiffness, rtol=1e-12)
+        f, d = rng.normal(size=6), [0.1, 0.2]
+        np.testing.assert_allclose(Q @ turned.recover(d, Q.T @ f), plain.recover(d, f), rtol=1e-11, atol=1e-12)
+
+    def test_surfaces_have_equations_too(self):
+        """Labels for all nodes, whose equations lead to the matrix: the plain model, bit by bit."""
+        places = np.array([[0, 0.1], [1, 0.1], [-1, 0], [0.5, 0], [2, 0]])
+        faces, K = ([[0, 1]], [[4, 3], [3, 2]]), sparse(definite(10))
+        plain = signorini.Model.from_surfaces(K, signorini.pair_surfaces(places, *faces))
+        labels = 50 + np.arange(10).reshape(5, 2)
+        contact = signorini.pair_surfaces(places, *faces, dofs=labels)
+        equations = [(50 + dof, [dof], [1.0]) for dof in range(10)]
+        for pairs in (contact, {"zone": contact}):
+            model = signorini.Model.from_surfaces(K, pairs, equations=equations)
+            np.testing.assert_array_equal(model.stiffness, plain.stiffness)
+
+    def test_mistakes(self):
+        def refused(kind, part, **changed):
+            given = {"slaves": [[2, 3]], "normals": [0, -1]}
+            with self.assertRaisesRegex(kind, part):
+                signorini.Model.sparse(sparse(np.eye(4)), **{**given, **changed})
+        refused(ValueError, "equations is no list of equations", equations=[(1, [2])])
+        refused(ValueError, r"equations\[0\] has the shapes", equations=[(1, [2, 3], [1.0])])
+        refused(TypeError, r"equations\[0\] holds float64, not integers", equations=[(1, [2.5], [1.0])])
+        refused(signorini.SignoriniError, "equation 0: its dependent degree of freedom follows from itself",
+                equations=[(7, [7], [1.0])])
+        refused(ValueError, r"rows\[0\] has the shapes", slaves=None, rows=[([0, 1], np.eye(3))], normals=[0, 0, 1])
+        refused(ValueError, r"rows\[1\] has the shapes", slaves=None,
+                rows=[([0, 1], np.eye(2)), ([0, 1], np.eye(3))])
+        refused(signorini.SignoriniError, "pair 0: it has no degree of freedom with a vector", slaves=None,
+                rows=[([0, 1], np.zeros((2, 2)))])
+
+
+class Decks(unittest.TestCase):
+    def read(self, deck, **more):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "deck.inp")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(deck)
+            return signorini.read_equations(path, **more)
+
+    def test_cards(self):
+        deck = ("*NODE\n1,0.,0.,0.\n*Equation\n** a comment\n3\n2,1,2.0,5,1,-1,\n5,2,4.d0\n1\n3,2,1.\n"
+                "*BOUNDARY\n3,1\n*EQUATION\n2\n7,3,1.,1,3,-1.\n")
+        self.assertEqual(self.read(deck), [(3, [12, 13], [0.5, -2.0]), (7, [], []), (20, [2], [1.0])])
+        found = self.read(deck, number=lambda node, direction: 10 * node + direction)
+        self.assertEqual(found[0], (21, [51, 52], [0.5, -2.0]))
+
+    def test_what_is_wrong_is_named(self):
+        for deck, part in (("*EQUATION\nx\n", "line 2: x: this is no number of terms"),
+                           ("*EQUATION\n2\nSET,1,1.,3,1,1.\n", "line 3: SET,1,1.,3,1,1."),
+                           ("*EQUATION\n2\n1,1,1.\n*STEP\n", "line 4: 1 terms of the equation before are missing"),
+                           ("*EQUATION\n2\n1,1,1.\n", "1 terms of the last equation are missing"),
+                           ("*EQUATION\n1\n1,1,1.,2,1,1.\n", "line 3: the equation has more terms"),
+                           ("*EQUATION\n1\n1,1,0.\n", "line 3: the coefficient of the first term is 0"),
+                           ("*EQUATION, REMOVE=ALL\n", "line 1: .* a card with REMOVE=ALL is not read")):
+            with self.assertRaisesRegex(ValueError, part):
+                self.read(deck)
+
+
+if __name__ == "__main__":
+    unittest.main()
