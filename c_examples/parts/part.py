@@ -34,6 +34,7 @@ class Part:
     zones: dict
     fixed: list  # degrees of freedom that do not move
     steps: list  # of each step its loads, and a dict of further degrees of freedom with their displacements
+    symmetry: tuple = ()  # planes of symmetry that cross the zones: (axis, where)
     shapes: dict = field(default_factory=dict)  # of a body that is meshed in another shape: its true coordinates
     found: list = field(default_factory=list)
 
@@ -49,7 +50,8 @@ class Part:
         """Pairs the zones, reduces the matrix, solves the steps. Returns a list of (result, u). K: the stiffness
         matrix of the mesh, if it is there."""
         mesh, moved = self.mesh, list(self.steps[0][1])
-        pairs = {name: signorini.pair_surfaces(mesh.at, mesh.faces(*zone.slave), mesh.faces(*zone.master))
+        pairs = {name: signorini.pair_surfaces(mesh.at, mesh.faces(*zone.slave), mesh.faces(*zone.master),
+                                               symmetry=self.symmetry)
                  for name, zone in self.zones.items()}
         gaps = {name: zone.gaps(pairs[name]) for name, zone in self.zones.items()}
         friction = {name: zone.mu for name, zone in self.zones.items()}

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Bound, PairLaw, Piece};
+use super::{Bound, LevelledTangents, PairLaw, Piece};
 use crate::linalg::vector::norm_inf;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 
@@ -43,6 +43,21 @@ impl<'p, R: Relation> Contact<'p, R> {
             load.to_mut()[problem.dim() * pair] += law.tension();
         }
         Contact { problem, pairs, load }
+    }
+
+    /// The contact of `problem`, which has this one's pairs on other tangents, where they are given.
+    pub fn levelled<'q>(
+        &self,
+        problem: &'q ContactProblem<'q>,
+        tangents: &[Option<LevelledTangents>],
+    ) -> Contact<'q> {
+        let mut contact = Contact::new(problem);
+        for ((levelled, law), tangents) in contact.pairs.iter_mut().zip(&self.pairs).zip(tangents) {
+            if let Some(tangents) = tangents {
+                *levelled = tangents.law(law);
+            }
+        }
+        contact
     }
 
     /// `f` with the tension of each pair added to its normal component. Under this load the law has no

@@ -47,6 +47,7 @@ mod enclosed_piece;
 mod fixed_state;
 mod friction;
 mod gauge;
+mod levelled;
 mod natural_map;
 mod normal_map;
 mod pair_law;
@@ -67,6 +68,7 @@ pub use contradiction::{exceed_gaps, first_penetration, pressing, without_fricti
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use enclosed_piece::{EnclosedPiece, Local};
 pub use fixed_state::FixedState;
+pub use levelled::LevelledTangents;
 pub use natural_map::Violation;
 pub use pair_law::{PairLaw, Vector};
 pub use piece::{Boundary, Piece, Tangential};

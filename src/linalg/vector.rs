@@ -7,6 +7,15 @@ pub fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
     Matrix2::new(a, b, b, c).symmetric_eigenvalues().max()
 }
 
+/// Both eigenvalues of the symmetric matrix `[[a, b], [b, c]]`, the smaller one first, and the unit vector that belongs to
+/// it.
+pub fn stiffness_axes(a: f64, b: f64, c: f64) -> ([f64; 2], [f64; 2]) {
+    let eigen = Matrix2::new(a, b, b, c).symmetric_eigen();
+    let (least, most) = (eigen.eigenvalues.imin(), eigen.eigenvalues.imax());
+    let vector = eigen.eigenvectors.column(least);
+    ([eigen.eigenvalues[least], eigen.eigenvalues[most]], [vector[0], vector[1]])
+}
+
 /// Euclidean norm that neither overflows nor underflows on the way; NaN if an entry is.
 pub fn norm(values: &[f64]) -> f64 {
     let mut sum = NormSum::default();

@@ -271,12 +271,33 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
 
     /// Force per length of the tangential components of a pair: the largest eigenvalue of their block.
     pub fn tangential_stiffness(&self, pair: usize) -> f64 {
+        let [first, mixed, second] = self.tangential_block(pair);
+        if self.dim == 2 { first } else { largest_eigenvalue(first, mixed, second) }
+    }
+
+    /// The block of the tangential components of a pair, `[[a, b], [b, c]]` as `[a, b, c]`; in the plane `[a, 0, 0]`.
+    pub fn tangential_block(&self, pair: usize) -> [f64; 3] {
         let first = self.dim * pair + 1;
         let entry = |i: usize, j: usize| self.relation.block(first + i, first + j);
         match self.dim {
-            2 => entry(0, 0),
-            _ => largest_eigenvalue(entry(0, 0), entry(1, 0), entry(1, 1)),
+            2 => [entry(0, 0), 0.0, 0.0],
+            _ => [entry(0, 0), entry(1, 0), entry(1, 1)],
         }
+    }
+
+    /// Copies the problem with another matrix, loads and reference slips, of the same sizes.
+    pub(crate) fn with_numbers<'b>(
+        &self,
+        matrix: Matrix<'b>,
+        load: &'b [f64],
+        reference_slip: &'b [f64],
+    ) -> ContactProblem<'b>
+    where
+        'a: 'b,
+    {
+        let (dim, gap, law) = (self.dim, self.gap, self.law);
+        let relation = Stiffness::new(matrix, load, dim);
+        ContactProblem { relation, dim, gap, law, reference_slip: Some(reference_slip) }
     }
 
     /// Gap of a pair, `+inf` if it never touches.

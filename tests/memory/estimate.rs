@@ -56,6 +56,13 @@ impl Chain {
         Chain { dim, pairs, k, load, gap, mu, ellipses, cohesion }
     }
 
+    /// Springs that nearly hold every second pair along its second tangent.
+    fn held_across(mut self) -> Self {
+        let n = self.n();
+        (2..n).step_by(6).for_each(|i| self.k[i + n * i] += 1e4);
+        self
+    }
+
     fn n(&self) -> usize {
         self.dim * self.pairs
     }
@@ -160,6 +167,9 @@ fn a_call_holds_no_more_than_was_estimated() {
         others(&chain, &mut shares);
         flexibilities(&chain, &mut shares);
         sparse_flexibility(&chain, &mut shares);
+    }
+    for ground in [0.05, 0.0] {
+        solutions(&Chain::new(3, 120, ground).held_across(), &mut shares);
     }
     println!("shares from {:.3} to {:.3}", shares.least, shares.worst);
     assert!(shares.worst >= 1.0 / MOST, "the estimate is {} times the most", 1.0 / shares.worst);

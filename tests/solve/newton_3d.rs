@@ -1,8 +1,11 @@
 //! Newton's method on the normal map, with friction in space.
 
+use crate::common::dense::largest;
 use crate::common::exact::{self, quads};
 use crate::common::measures::{eta, rounding};
-use crate::common::problems::{Case, Law, coulomb, definite, loaded, tresca, uniform, vector};
+use crate::common::problems::{
+    Case, Law, add_spring, coulomb, definite, loaded, tresca, uniform, vector,
+};
 use fastrand::Rng;
 use signorini::{Method, Settings, Status};
 
@@ -63,6 +66,50 @@ fn an_extruded_problem_has_the_answer_of_the_plane() {
                 assert!(apart <= 1e-9 * size, "seed {seed}, pair {pair}: {apart:e} of {size}");
             }
         }
+    }
+}
+
+/// As above where supports nearly hold the pairs along the second tangent, up to 1e10 times as stiff: a few systems find
+/// the answer of the plane all the same.
+#[test]
+fn a_stiff_second_tangent_changes_nothing() {
+    for seed in 0..200 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(1..=40);
+        let k = definite(&mut rng, 2 * pairs, 1e2);
+        let law = coulomb(&mut rng, pairs, 0.3);
+        let plane = loaded(&mut rng, 2, k, law);
+        let space = plane.extruded(|| 10_f64.powf(uniform(&mut rng, 1.5, 10.0)));
+        let (two, three) =
+            (plane.solve(&settings(Method::Auto)), space.solve(&settings(Method::Newton)));
+        assert_eq!((two.status, three.status), (Status::Solved, Status::Solved), "seed {seed}");
+        assert!(three.factorisations <= 20, "seed {seed}: {}", three.factorisations);
+        let size = largest(&two.d);
+        for (two, three) in two.d.chunks_exact(2).zip(three.d.chunks_exact(3)) {
+            let apart = (two[0] - three[0]).abs().max((two[1] - three[1]).abs());
+            assert!(apart <= 1e-9 * size, "seed {seed}: {apart:e} of {size}");
+        }
+    }
+}
+
+/// Springs across one direction of the tangent plane of each pair, from 1e2 to 1e10 times as stiff as the bodies, on pairs
+/// that are loaded along them too. Friction is that for which the bodies alone have one solution; Newton's method
+/// finds one of each problem.
+#[test]
+fn pairs_that_are_stiff_across_some_direction_are_solved() {
+    for seed in 0..300 {
+        let mut rng = Rng::with_seed(seed);
+        let pairs = rng.usize(1..=12);
+        let mut k = definite(&mut rng, 3 * pairs, 1e2);
+        for pair in 0..pairs {
+            let (sin, cos) = uniform(&mut rng, 0.0, std::f64::consts::TAU).sin_cos();
+            let mut strain = vec![0.0; 3 * pairs];
+            (strain[3 * pair + 1], strain[3 * pair + 2]) = (cos, sin);
+            add_spring(&mut k, &strain, 10_f64.powf(uniform(&mut rng, 2.0, 10.0)));
+        }
+        let law = coulomb(&mut rng, pairs, 0.3);
+        let found = loaded(&mut rng, 3, k, law).solve(&settings(Method::Newton));
+        assert_eq!(found.status, Status::Solved, "seed {seed}: {}", found.factorisations);
     }
 }
 

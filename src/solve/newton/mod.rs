@@ -3,11 +3,13 @@
 //!
 //! Some sweeps (`start`), then Newton's method with a line search (`iteration`). In the plane one factor serves many systems;
 //! in space the pairs that are surely open are eliminated first, and problems that share a matrix share what is eliminated
-//! (`candidates`).
+//! (`candidates`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
+//! they are as stiff (`levelled`).
 
 mod candidates;
 mod descent;
 mod iteration;
+mod levelled;
 mod polish;
 mod start;
 mod uncertain_pairs;
@@ -34,9 +36,16 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             None => Candidate::without_displacements(contact, candidates::OVERFLOW),
         };
     }
-    on_candidates(call, monitor, &mut |equations, y, monitor| {
-        iteration::solve(equations, y, settings.tolerance, monitor)
-    })
+    let core: &mut candidates::Core<'_> =
+        &mut |equations, y, monitor| iteration::solve(equations, y, settings.tolerance, monitor);
+    match levelled::solve(call, monitor, core) {
+        None => on_candidates(call, monitor, core),
+        Some(levelled) => {
+            let mut candidate = on_candidates(&call.from(&levelled.d), monitor, core);
+            candidate.effort.factorisations += levelled.systems;
+            candidate
+        }
+    }
 }
 
 /// Solves in the plane from the solution on given pieces; the start is returned unchanged if that cannot be had.

@@ -1,0 +1,73 @@
+//! Problems in space with pairs that are far stiffer along one tangent than along the other: on tangents along which they
+//! are as stiff (`law::levelled`).
+
+use super::candidates::{self, Core};
+use crate::law::LevelledTangents;
+use crate::linalg::matrix::Matrix;
+use crate::monitor::Monitor;
+use crate::solve::result::{Call, Ending};
+
+/// A solution on levelled tangents, on those of the problem.
+pub struct Levelled {
+    /// Displacements.
+    pub d: Vec<f64>,
+    /// Systems that were factorised.
+    pub systems: u64,
+}
+
+/// Solves a problem in space on levelled tangents; `None` where no pair needs them, and where that fails.
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Option<Levelled> {
+    let (contact, problem) = (call.contact, call.contact.problem());
+    let of_pair = |(pair, law)| LevelledTangents::of(law, problem.tangential_block(pair));
+    let tangents: Vec<Option<LevelledTangents>> =
+        contact.pairs().iter().enumerate().map(of_pair).collect();
+    if !problem.is_symmetric() || tangents.iter().all(Option::is_none) {
+        return None;
+    }
+    let size = contact.unknowns();
+    let matrix = congruent(problem.stiffness(), &tangents);
+    let load = changed(problem.load(), &tangents, LevelledTangents::force);
+    let slips: Vec<f64> = contact.pairs().iter().flat_map(|law| law.reference()).collect();
+    let slips = changed(&slips, &tangents, LevelledTangents::levelled);
+    let slips: Vec<f64> =
+        slips.chunks_exact(3).flat_map(|of_pair| &of_pair[1..]).copied().collect();
+    let problem = problem.with_numbers(Matrix::new(size, &matrix, size), &load, &slips);
+    let levelled = contact.levelled(&problem, &tangents);
+    let start = call.start.map(|start| changed(start, &tangents, LevelledTangents::levelled));
+    let call = Call { contact: &levelled, settings: call.settings, start: start.as_deref() };
+    let found = candidates::solve(&call, monitor, core);
+    (found.ending == Ending::Done).then(|| Levelled {
+        d: changed(found.d(), &tangents, LevelledTangents::displacement),
+        systems: found.effort.factorisations,
+    })
+}
+
+/// A vector with the tangential parts of pairs changed.
+fn changed(
+    values: &[f64],
+    tangents: &[Option<LevelledTangents>],
+    change: impl Fn(&LevelledTangents, [f64; 2]) -> [f64; 2],
+) -> Vec<f64> {
+    let mut values = values.to_vec();
+    for (own, tangents) in values.chunks_exact_mut(3).zip(tangents) {
+        if let Some(tangents) = tangents {
+            [own[1], own[2]] = change(tangents, [own[1], own[2]]);
+        }
+    }
+    values
+}
+
+/// `K` on levelled tangents, column-major: forces of displacements along them.
+fn congruent(matrix: Matrix<'_>, tangents: &[Option<LevelledTangents>]) -> Vec<f64> {
+    let size = matrix.size();
+    let column = |j| changed(matrix.column(j), tangents, LevelledTangents::force);
+    let mut entries: Vec<f64> = (0..size).flat_map(column).collect();
+    for (columns, tangents) in entries.chunks_exact_mut(3 * size).zip(tangents) {
+        let Some(tangents) = tangents else { continue };
+        let (first, second) = columns[size..].split_at_mut(size);
+        for (first, second) in first.iter_mut().zip(second) {
+            [*first, *second] = tangents.force([*first, *second]);
+        }
+    }
+    entries
+}
