@@ -68,6 +68,43 @@ static void check_zones(int32_t base)
         signorini_surface_free(zone[i]);
 }
 
+/*
+ * A rigid rod from (0, 0, 0) to (2, 0, 0) has unit springs on the six degrees of freedom at its middle. Its ends press
+ * on the ground, two pairs that the host names by numbers beyond its matrix. Pressed down by 4 at the middle and turned
+ * about y by a moment of 1, it stays where it is: the forces are 2 - 1/2 and 2 + 1/2.
+ */
+static void check_rigid_nodes(int32_t base)
+{
+    const int64_t motion[6] = {base, base + 1, base + 2, base + 3, base + 4, base + 5};
+    const int64_t ends[6] = {base + 20, base + 21, base + 22, base + 30, base + 31, base + 32};
+    const double arms[2][3] = {{-1, 0, 0}, {1, 0, 0}}, normals[6] = {0, 0, -1, 0, 0, -1};
+    const double stiffness[6] = {1, 1, 1, 1, 1, 1}, load[6] = {0, 0, -4, 0, 1, 0}, gap[2] = {0, 0};
+    int64_t count = 0, dependent[6], start[7] = {base}, dofs[18];
+    double coefficients[18], d[6], F[6], u[6], nodal[6];
+    signorini_model *model;
+
+    for (int end = 0; end < 2; end++)
+        append_rigid_node(ends + 3 * end, arms[end], motion, &count, dependent, start, dofs, coefficients);
+    CHECK(count == 6 && start[6] == base + 18);
+    const signorini_equations equations = {.struct_size = sizeof equations, .count = count, .dependent = dependent,
+                                           .start = start, .dofs = dofs, .coefficients = coefficients};
+    const signorini_pairs rows = {.struct_size = sizeof rows, .dim = 3, .count = 2, .slaves = ends,
+                                  .normals = normals};
+    const signorini_sparse K = springs(6, base, stiffness);
+    CHECK_STATUS(model_with_equations(&K, 0, NULL, &rows, &equations, &model), 0);
+    CHECK_STATUS(signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_FRICTIONLESS, NULL, NULL, NULL, d, F,
+                                       NULL, NULL, NULL, NULL), 0);
+    CHECK_STATUS(signorini_model_recover(model, 1, load, NULL, d, u), 0);
+    CHECK_STATUS(signorini_model_nodal_forces(model, F, nodal), 0);
+    /* u_z = U_z - theta_y x: the moment presses the end at x = 1. */
+    CHECK(fabs(F[0] + 1.5) < 1e-9 && fabs(F[3] + 2.5) < 1e-9);
+    for (int i = 0; i < 6; i++) {
+        CHECK(fabs(u[i]) < 1e-9);
+        CHECK(fabs(nodal[i] + load[i]) < 1e-9);
+    }
+    signorini_model_free(model);
+}
+
 static void check_initial_gaps(void)
 {
     const double gaps[3] = {0.02, -0.001, 0.5};
@@ -164,6 +201,8 @@ int main(void)
 {
     check_zones(0);
     check_zones(1);
+    check_rigid_nodes(0);
+    check_rigid_nodes(1);
     check_initial_gaps();
     check_pretension();
     check_tie();

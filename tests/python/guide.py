@@ -5,6 +5,7 @@
 
 import os
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -102,6 +103,22 @@ class Zones(unittest.TestCase):
         np.testing.assert_allclose(contacts["upper"].resultant(upper).force, [0, 6.4, 0], atol=1e-9)
         np.testing.assert_allclose(contacts["lower"].resultant(lower).force, [0, 4, 0], atol=1e-9)
 
+    def test_a_deck_ties_two_nodes(self):
+        """The nodes of a line on springs of 1 move as the other nodes do, also on springs of 1, down by 4 / 2."""
+        at = np.array([[0, 0.5], [1, 0.5], [0, 9], [1, 9]])
+        springs = (np.ones(12), np.arange(12), np.arange(13))
+        floor = signorini.pair_obstacle(at, [[0, 1]], signorini.Plane([0, -9], [0, 1]),
+                                        dofs=[[0, 1], [3, 4], [6, 7], [9, 10]])
+        load = np.zeros(12)
+        load[[7, 10]] = -4
+        with tempfile.TemporaryDirectory() as folder:
+            deck = os.path.join(folder, "tied.inp")
+            with open(deck, "w", encoding="ascii") as file:
+                file.write("*EQUATION\n2\n1,2,1.,3,2,-1.\n2\n2,2,1.,4,2,-1.\n")
+            result, u = solve_deck(deck, springs, floor, load, [], 0.3)
+        self.assertEqual(result.status, signorini.Status.SOLVED)
+        np.testing.assert_allclose(u[[1, 4, 7, 10]], -2, atol=1e-12)
+
     def test_rows_are_those_of_the_library(self):
         """A model of the rows has the stiffness of the model of the pairs, bit by bit."""
         blocks = brick_mesh.two_blocks(wide=3, deep=2, narrow=2, high=1)
@@ -188,5 +205,5 @@ class PressFit(unittest.TestCase):
 if __name__ == "__main__":
     sys.path.insert(0, sys.argv.pop(1))
     from large_sliding import slide
-    from questions import press_fit, solve_zones
+    from questions import press_fit, solve_deck, solve_zones
     unittest.main()
