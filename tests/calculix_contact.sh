@@ -3,7 +3,9 @@
 # forces agree to 1 %. calculix_contact.py says how; it prints the times of both.
 #
 #     sh tests/calculix_contact.sh [--require]
+#     sh tests/calculix_contact.sh --parts [PART ...]
 #
+# With --parts it compares the real parts of c_examples/parts instead, some minutes: calculix_parts.py says how.
 # CCX and PYTHON name CalculiX and the Python, default ccx and python3. Without CalculiX or numpy it is
 # skipped and ends with 77; with --require it fails.
 set -eu
@@ -19,11 +21,15 @@ missing() {
 }
 
 required=
-[ "${1-}" != --require ] || required=yes
+script=calculix_contact
+case ${1-} in
+    --require) required=yes; shift ;;
+    --parts) required=yes; script=calculix_parts; shift ;;
+esac
 command -v "${CCX:-ccx}" >/dev/null || missing "CalculiX ('${CCX:-ccx}')" calculix-ccx
 "$python" -c 'import numpy' >/dev/null 2>&1 || missing "numpy of $python" python3-numpy
 
 command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/bin
 (cd "$root" && cargo build --quiet --release --locked --lib --target-dir "$root/target")
 unset SIGNORINI_LIBRARY
-exec "$python" "$root/tests/calculix_contact.py" "$root/target/tests/calculix_contact"
+exec "$python" "$root/tests/$script.py" "$root/target/tests/$script" "$@"

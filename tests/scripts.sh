@@ -27,7 +27,7 @@ unset SIGNORINI_LIBRARY
 for name in results shapes mistakes solutions operators progress surfaces meshes zones equations; do
     "$python" -B "$root/tests/python/$name.py"
 done
-for part in loaded_pin cylinder pin_in_lug shrink_fit dovetail; do
+for part in loaded_pin cylinder pin_in_lug shrink_fit dovetail bolted_plates; do
     echo "scripts: c_examples/parts/$part.py"
     "$python" -B "$root/c_examples/parts/$part.py" "$work"
     [ -s "$work/$part.vtu" ]

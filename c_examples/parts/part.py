@@ -35,6 +35,8 @@ class Part:
     fixed: list  # degrees of freedom that do not move
     steps: list  # of each step its loads, and a dict of further degrees of freedom with their displacements
     symmetry: tuple = ()  # planes of symmetry that cross the zones: (axis, where)
+    equations: tuple = ()  # between degrees of freedom
+    unknowns: int = 0  # further ones behind those of the mesh, without stiffness
     shapes: dict = field(default_factory=dict)  # of a body that is meshed in another shape: its true coordinates
     found: list = field(default_factory=list)
 
@@ -46,9 +48,9 @@ class Part:
             at[nodes] = shape(at[nodes])
         return at
 
-    def solve(self, K=None):
+    def solve(self, K=None, slip=0.0):
         """Pairs the zones, reduces the matrix, solves the steps. Returns a list of (result, u). K: the stiffness
-        matrix of the mesh, if it is there."""
+        matrix of the mesh, if it is there. slip: of all pairs, from which the first step begins."""
         mesh, moved = self.mesh, list(self.steps[0][1])
         pairs = {name: signorini.pair_surfaces(mesh.at, mesh.faces(*zone.slave), mesh.faces(*zone.master),
                                                symmetry=self.symmetry)
@@ -56,8 +58,10 @@ class Part:
         gaps = {name: zone.gaps(pairs[name]) for name, zone in self.zones.items()}
         friction = {name: zone.mu for name, zone in self.zones.items()}
         fixed = np.concatenate([self.fixed, moved]).astype(int)
-        self.model = signorini.Model.from_surfaces(mesh.stiffness() if K is None else K, pairs, fixed=fixed)
-        results, slip = [], 0.0
+        data, indices, starts = mesh.stiffness() if K is None else K
+        K = data, indices, np.append(starts, [starts[-1]] * self.unknowns).astype(int)
+        self.model = signorini.Model.from_surfaces(K, pairs, fixed=fixed, equations=self.equations or None)
+        results = []
         for loads, motions in self.steps:
             prescribed = np.concatenate([np.zeros(len(self.fixed)), [motions[dof] for dof in moved]])
             result = self.model.solve(loads, gap=gaps, mu=friction, slip0=slip, prescribed=prescribed)
@@ -67,7 +71,6 @@ class Part:
             results.append((result, self.model.recover(result.d, loads, prescribed)))
         self.pairs, self.found = pairs, results
         return results
-
 
     def pressures(self, step, zone):
         """Nodes of a zone's pairs with their pressures in a step."""

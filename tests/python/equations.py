@@ -62,6 +62,22 @@ class Rows(unittest.TestCase):
         f, d = rng.normal(size=6), [0.1, 0.2]
         np.testing.assert_allclose(Q @ turned.recover(d, Q.T @ f), plain.recover(d, f), rtol=1e-11, atol=1e-12)
 
+    def test_a_section_has_its_force_and_its_shortening(self):
+        """A bolt of two springs in the plane, 2 above its section and 4 below, whose head stands on the ground."""
+        K = np.eye(7)
+        K[1, 1], K[1, 3], K[3, 1], K[3, 3], K[5, 5], K[6, 6] = 2, -2, -2, 2, 4, 0
+        equations = signorini.section_equations([[2, 3]], [[4, 5]], 6, [0, 1])
+        tightened = signorini.Model.sparse(sparse(K), [[0, 1]], [0, -1], equations=equations)
+        f = np.array([0, 0, 0, 0, 0, 0, 6.0])
+        result = tightened.solve(f, gap=0.0, mu=0.0)
+        np.testing.assert_allclose(result.F[0], [-6, 0], atol=1e-12)
+        np.testing.assert_allclose(tightened.recover(result.d, f)[[1, 3, 5, 6]], [0, -3, 1.5, 4.5], atol=1e-12)
+        locked = signorini.Model.sparse(sparse(K), [[0, 1]], [0, -1], fixed=[6], equations=equations)
+        result = locked.solve([0, 8.0, 0, 0, 0, 0, 0], gap=0.0, mu=0.0, prescribed=[4.5])
+        np.testing.assert_allclose(result.d[0, 0], -1.5)  # (8 - 6) (1 / 2 + 1 / 4), against n
+        with self.assertRaisesRegex(ValueError, r"give as many as dofs, shape \(1, 2\)"):
+            signorini.section_equations([[2, 3]], [[4, 5], [0, 1]], 6, [0, 1])
+
     def test_surfaces_have_equations_too(self):
         """Labels for all nodes, whose equations lead to the matrix: the plain model, bit by bit."""
         places = np.array([[0, 0.1], [1, 0.1], [-1, 0], [0.5, 0], [2, 0]])

@@ -50,7 +50,7 @@ or that of the system. Needs numpy. Threads may share everything here.
 from ._condensed import certify, prove, solve, write
 from ._constants import (ABI_VERSION, Fallback, Law, Method, ModelKind, Normals, Pairing, Proof, Remark,
                          Rims, Search, State, Status, Triangle, Uniqueness)
-from ._equations import read_equations, rigid_equations, turned_equations
+from ._equations import read_equations, rigid_equations, section_equations, turned_equations
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
@@ -67,6 +67,6 @@ __all__ = [
     "LcpProblem", "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Plane", "Progress", "Proof",
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
     "SurfacePairs", "Torus", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
-    "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations", "solve",
-    "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
+    "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",
+    "section_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
 ]

@@ -51,6 +51,23 @@ def turned_equations(dofs, own, turn):
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
 
 
+def section_equations(dofs, opposite, shortening, axis):
+    """Equations of a section through a body, as of a bolt, with its shortening as one more unknown.
+
+    The body is meshed in two, with two nodes at each place of the section: u[dofs] = u[opposite] - axis u[shortening].
+    dofs, opposite: of the nodes on its two sides, (n, D).  shortening: the dof number of the unknown, a further row of
+    K without entries. Its load is the force of the section, positive if it pulls; fixed, its value is the shortening.
+    axis: the unit vector from the side of opposite to that of dofs, (D,).
+    """
+    dofs, opposite = _nodes("dofs", dofs), _nodes("opposite", opposite)
+    count, dim = dofs.shape
+    if opposite.shape != dofs.shape:
+        raise ValueError(f"opposite has the shape {opposite.shape}: give as many as dofs, shape {dofs.shape}")
+    axis = fit("axis", axis, [(dim,)], f"a unit vector, shape {(dim,)}")
+    return [(int(dofs[i, c]), [int(opposite[i, c]), int(shortening)], [1.0, -axis[c]])
+            for i in range(count) for c in range(dim)]
+
+
 def rigid_equations(dofs, coordinates, reference, motion):
     """Equations of the nodes of a rigid body, u = U + theta x (place - reference).
 
