@@ -34,7 +34,7 @@ impl Candidates<'_> {
                 let part =
                     in_plane.overlap(&master.face(opposite), |away| away > from, &mut overlaps);
                 let part = part.unwrap_or_default();
-                if part.area > 0.0 {
+                if part.share > 0.0 {
                     nearest = nearest.min(part.distance);
                 }
                 overlaps.points.clear();

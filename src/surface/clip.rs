@@ -17,6 +17,13 @@ pub(super) fn measure(polygon: &[Point]) -> f64 {
     fan.map(|side| 0.5 * turn(polygon[0], side[0], side[1])).sum()
 }
 
+/// Makes a polygon turn to the left, an interval ascend.
+pub(super) fn turn_left(polygon: &mut [Point]) {
+    if measure(polygon) < 0.0 {
+        polygon.reverse();
+    }
+}
+
 /// The common part of two polygons, in memory that the next one uses again.
 #[derive(Debug, Default)]
 pub(super) struct Clipper {
@@ -25,9 +32,9 @@ pub(super) struct Clipper {
 }
 
 impl Clipper {
-    /// The common part of two convex polygons that turn to the left (Sutherland and Hodgman 1974), or of
-    /// two intervals that ascend. It is empty if they touch in an
-    /// edge or a point.
+    /// The part of a polygon in a convex one, both of which turn to the left (Sutherland and Hodgman 1974), or the common
+    /// part of two intervals that ascend. It is empty if they touch in an edge or a point. Of a polygon that is not
+    /// convex it may have edges upon each other, between which there is no area.
     pub(super) fn common_part(&mut self, subject: &[Point], window: &[Point]) -> &[Point] {
         self.polygon.clear();
         if let ([a, b], [c, d]) = (subject, window) {

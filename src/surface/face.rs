@@ -94,6 +94,22 @@ impl Face<'_> {
         integrals
     }
 
+    /// How far the face reaches out of the hull of its nodes at most. It is the bilinear face of its corners, which does
+    /// not, and the functions of the other nodes times how far these stand off it, whose sizes sum to less than 2.
+    pub(super) fn bulge(&self) -> f64 {
+        let off_edge =
+            |(mid, [a, b]): (usize, [usize; 2])| 0.5 * (self.x[a] + self.x[b]) - self.x[mid];
+        let off_centre =
+            self.kind.central_node().map(|node| self.middle_of_corners() - self.x[node]);
+        let off = self.kind.mids().map(off_edge).chain(off_centre);
+        2.0 * off.map(|off| off.norm()).fold(0.0, f64::max)
+    }
+
+    fn middle_of_corners(&self) -> Vector3 {
+        let corners = self.kind.corners();
+        self.x[..corners].iter().sum::<Vector3>() / corners as f64
+    }
+
     /// Returns `true` if the mid nodes stand in the middle of straight edges.
     pub(super) fn is_straight(&self) -> bool {
         self.kind.mids().all(|(mid, [a, b])| {
@@ -104,11 +120,8 @@ impl Face<'_> {
 
     /// Returns `true` if positions are bilinear in local coordinates: straight edges, and the centre in the middle.
     pub(super) fn is_bilinear(&self) -> bool {
-        let corners = self.kind.corners();
-        let centred = |node: usize| {
-            let middle: Vector3 = self.x[..corners].iter().sum::<Vector3>() / corners as f64;
-            (self.x[node] - middle).norm() <= ON_EDGE * self.size()
-        };
+        let centred =
+            |node: usize| (self.x[node] - self.middle_of_corners()).norm() <= ON_EDGE * self.size();
         self.is_straight() && self.kind.central_node().is_none_or(centred)
     }
 }

@@ -158,7 +158,7 @@ fn cover(
     if parts.is_empty() {
         return Ok(None);
     }
-    let cover = parts.iter().map(|opposite| opposite.part.area).sum::<f64>() / in_plane.area;
+    let cover = parts.iter().map(|opposite| opposite.part.share).sum::<f64>();
     if cover > 1.0 + SAME_COVER {
         let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
         let what = format!(

@@ -2,24 +2,18 @@
 //! integrated there (Puso 2004). Of lines in the plane it is a straight line.
 
 use super::bilinear::Bilinear;
-use super::clip::Point;
+use super::clip::{self, Point};
+use super::curved::Curved;
 use super::face::Face;
 use super::shape::Local;
 use crate::linalg::vector3::{Vector3, axis, unit};
-
-/// Steps of Newton's method to local coordinates. It converges by squares from the middle of a face that
-/// is convex; the rest is for faces at the limit of what is accepted.
-const STEPS: usize = 40;
-
-/// A step of Newton's method this short is the last one: what remains is of the order of its square.
-const LAST: f64 = 4e-9;
 
 /// A plane with its axes.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     origin: Vector3,
     along: [Vector3; 2],
-    pub(super) normal: Vector3,
+    normal: Vector3,
 }
 
 /// First tangent of a normal: in the plane the normal turned by +90 degrees, in space one across the
@@ -47,15 +41,19 @@ impl Plane {
             let [along, across] = self.along.map(|along| along.dot(&from));
             *x = Vector3::new(along, across, self.normal.dot(&from));
         }
-        let bilinear = face.is_bilinear().then(|| Bilinear::new(&seen));
-        Flat { face: seen, bilinear }
+        let curved = (!face.is_bilinear()).then(|| Curved::new(&seen));
+        Flat { corners: Bilinear::new(&seen), face: seen, curved }
     }
 }
 
-/// Most corners of a part of a face.
-const MOST_CORNERS: usize = 4;
+/// Most corners of the outline of a face: those of a quadrilateral with a mid node on each edge.
+const MOST_CORNERS: usize = 8;
 
-/// A projected part of a face.
+/// Where a mid node stands off its straight edge by more than this share of it, the outline goes by it. Without it a
+/// strip of two thirds of this counts for the neighbour, with it of a quarter of that.
+pub(super) const MOST_SAG: f64 = 5e-4;
+
+/// A projected outline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polygon {
     corners: [Point; MOST_CORNERS],
@@ -63,6 +61,11 @@ pub(super) struct Polygon {
 }
 
 impl Polygon {
+    fn push(&mut self, corner: Vector3) {
+        self.corners[self.count] = [corner.x, corner.y];
+        self.count += 1;
+    }
+
     /// Its corners in turn.
     pub(super) fn corners(&self) -> &[Point] {
         &self.corners[..self.count]
@@ -74,68 +77,117 @@ impl Polygon {
 pub(super) struct Flat<'a> {
     /// The face in the axes of the plane, with heights above it.
     pub(super) face: Face<'a>,
-    /// The closed form of faces with straight edges.
-    pub(super) bilinear: Option<Bilinear>,
+    /// The face that the corners span: this one, if its edges are straight.
+    corners: Bilinear,
+    curved: Option<Curved>,
 }
 
 impl Flat<'_> {
-    /// A part of the face as a polygon that turns to the left, or an interval that ascends.
-    pub(super) fn polygon(&self, part: &[usize]) -> Polygon {
-        let mut polygon = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: part.len() };
-        for (corner, &node) in polygon.corners.iter_mut().zip(part) {
-            *corner = [self.face.x[node].x, self.face.x[node].y];
+    /// The outline as a polygon that turns to the left, or an interval that ascends.
+    pub(super) fn outline(&self) -> Polygon {
+        let (kind, x) = (self.face.kind, &self.face.x);
+        let mut outline = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: 0 };
+        let mut mids = kind.mids().filter(|_| self.is_curved() && !kind.is_line());
+        for corner in 0..kind.corners() {
+            outline.push(x[corner]);
+            let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
+            mid.into_iter().for_each(|(mid, _)| outline.push(x[mid]));
         }
-        if super::clip::measure(polygon.corners()) < 0.0 {
-            polygon.corners[..part.len()].reverse();
+        clip::turn_left(&mut outline.corners[..outline.count]);
+        outline
+    }
+
+    pub(super) fn is_curved(&self) -> bool {
+        self.curved.is_some()
+    }
+
+    /// The place in the plane of a point of a curved face.
+    pub(super) fn place(&self, at: Local) -> Point {
+        match &self.curved {
+            Some(curved) => curved.place(at),
+            None => [0, 1].map(|c| self.face.position(at)[c]),
         }
+    }
+
+    /// As [`Self::local`], also beyond a curved face, on that which the corners span if there is no other.
+    pub(super) fn local_beyond(&self, p: Point) -> Option<Local> {
+        self.local(p).or_else(|| self.corners.local(p))
+    }
+
+    /// The polygon of the corners, moved away from their middle so far that it reaches beyond the mid nodes too, by a
+    /// share of its size.
+    pub(super) fn around(&self, share: f64) -> Vec<Point> {
+        let Face { kind, x, .. } = &self.face;
+        let corners = &x[..kind.corners()];
+        let middle: Vector3 = corners.iter().sum::<Vector3>() / corners.len() as f64;
+        let beyond = |(mid, [a, b]): (usize, [usize; 2])| {
+            let edge = x[b] - x[a];
+            let height = |x: Vector3| edge.x * (x.y - corners[a].y) - edge.y * (x.x - corners[a].x);
+            -height(x[mid]) / height(middle)
+        };
+        let most = if kind.is_line() { 0.0 } else { kind.mids().map(beyond).fold(0.0, f64::max) };
+        let moved = corners.iter().map(|x| x + (share + most) * (x - middle));
+        let mut polygon: Vec<Point> = moved.map(|x| [x.x, x.y]).collect();
+        clip::turn_left(&mut polygon);
         polygon
     }
 
     /// The height above the plane.
     pub(super) fn height(&self, at: Local) -> f64 {
-        match &self.bilinear {
-            Some(bilinear) => bilinear.height(at),
-            None => self.face.position(at).z,
-        }
-    }
-
-    /// Derivatives of the position by the local coordinates; across a line of the plane itself.
-    fn derivatives(&self, at: Local) -> [Vector3; 2] {
-        match &self.bilinear {
-            Some(bilinear) => bilinear.derivatives(at),
-            None if self.face.kind.is_line() => [self.face.derivatives(at)[0], axis(1)],
-            None => self.face.derivatives(at),
+        match &self.curved {
+            Some(curved) => curved.height(at),
+            None => self.corners.height(at),
         }
     }
 
     /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's
     /// method otherwise; `None` if there are none.
     pub(super) fn local(&self, p: Point) -> Option<Local> {
-        match &self.bilinear {
-            Some(bilinear) => bilinear.local(p),
-            None => self.newton(p),
+        match &self.curved {
+            Some(curved) => curved.local(p, &self.corners),
+            None => self.corners.local(p),
         }
     }
 
-    fn newton(&self, p: Point) -> Option<Local> {
-        let mut at = self.face.kind.centre();
-        for _ in 0..STEPS {
-            let from = self.face.position(at) - Vector3::new(p[0], p[1], 0.0);
-            let [a, b] = self.derivatives(at);
-            let determinant = a.cross(&b).z;
-            let step = [from.cross(&b).z / determinant, a.cross(&from).z / determinant];
-            at = [at[0] - step[0], at[1] - step[1]];
-            if step[0].abs().max(step[1].abs()) <= LAST {
-                return Some(at);
-            }
+    /// How much derivatives change from the middle to a corner, relative to those in the middle: 0 where local
+    /// coordinates are linear in the position, 1 where a corner may be straight.
+    pub(super) fn distortion(&self) -> f64 {
+        match &self.curved {
+            Some(curved) => curved.distortion(),
+            None => self.corners.distortion(),
         }
-        None
     }
 
-    /// The area of the face over a unit of area of the plane.
-    pub(super) fn stretch(&self, at: Local) -> f64 {
-        let [a, b] = self.derivatives(at);
+    /// The largest slope that warp or curvature adds to that of the middle.
+    pub(super) fn warp(&self) -> f64 {
+        match &self.curved {
+            Some(curved) => curved.lean(),
+            None => self.corners.warp(),
+        }
+    }
+
+    /// How far mid nodes stand off their straight edges, relative to these, at most; zero on a line.
+    pub(super) fn sag(&self) -> f64 {
+        let Face { kind, x, .. } = &self.face;
+        if !self.is_curved() || kind.is_line() {
+            return 0.0;
+        }
+        kind.mids().map(|(mid, ends)| sag(x, mid, ends)).fold(0.0, f64::max)
+    }
+
+    /// The area of a unit of local coordinates, and its projection.
+    pub(super) fn unit_area(&self, at: Local) -> [f64; 2] {
+        let [a, b] = match &self.curved {
+            Some(curved) => curved.derivatives(at),
+            None => self.corners.derivatives(at),
+        };
         let normal = a.cross(&b);
-        normal.norm() / normal.z.abs()
+        [normal.norm(), normal.z.abs()]
     }
+}
+
+/// How far a projected mid node stands off the straight edge between two corners, relative to that.
+fn sag(x: &[Vector3], mid: usize, [a, b]: [usize; 2]) -> f64 {
+    let (edge, from) = (x[b] - x[a], x[mid] - x[a]);
+    (edge.x * from.y - edge.y * from.x).abs() / (edge.x * edge.x + edge.y * edge.y)
 }

@@ -43,18 +43,17 @@ pub(super) fn check(
             continue;
         }
         let plane = Plane::new(dim, face.position(face.kind.centre()), normals[at]);
-        let in_plane = SlaveFace::new(&face, plane.clone());
+        let in_plane = SlaveFace::new(&face, plane);
         for &other in &near {
             let second = side.face(other);
             let distance = distance.min(UPON * second.size());
             let is_upon = |apart: f64| apart.abs() <= distance;
             // Faces that cannot be projected on each other do not lie upon each other.
             let common = in_plane.overlap(&second, is_upon, &mut overlaps);
-            let common = common.map_or(0.0, |part| part.area);
             overlaps.points.clear();
-            let smaller = || in_plane.area.min(SlaveFace::new(&second, plane.clone()).area);
-            if common > 0.0 && common > COMMON * smaller() {
-                return Err(upon(side, (at, other), common / smaller()));
+            let share = common.map_or(0.0, |part| in_plane.of_smaller(part.share, &second));
+            if share > COMMON {
+                return Err(upon(side, (at, other), share));
             }
         }
     }

@@ -136,27 +136,6 @@ impl FaceKind {
         (self == Q9).then_some(MOST_NODES - 1)
     }
 
-    /// The part that a face with straight edges is, by nodes: its corners.
-    pub(super) fn outline(self) -> &'static [&'static [usize]] {
-        match self {
-            Line2 | Line3 => Line2.parts(),
-            T3 | T6 => T3.parts(),
-            Q4 | Q8 | Q9 => Q4.parts(),
-        }
-    }
-
-    /// The flat parts into which a face with curved edges is cut, by nodes.
-    pub(super) fn parts(self) -> &'static [&'static [usize]] {
-        match self {
-            Line2 | Line3 => &[&[0, 1]],
-            T3 => &[&[0, 1, 2]],
-            Q4 => &[&[0, 1, 2, 3]],
-            T6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
-            Q8 => &[&[0, 4, 7], &[4, 1, 5], &[5, 2, 6], &[6, 3, 7], &[4, 5, 6, 7]],
-            Q9 => &[&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]],
-        }
-    }
-
     /// Exponents of the monomials that span the shape functions, lowest first.
     pub(super) fn exponents(self) -> &'static [[i32; 2]] {
         match self {

@@ -8,10 +8,6 @@ use crate::linalg::vector3::Vector3;
 /// themselves.
 const TOUCH: f64 = 4e-15;
 
-/// A curved face may bulge out of the hull of its nodes by this share of its size: an arc of a quarter
-/// circle bulges by 0.1 of its chord, between nodes by less.
-const BULGE: f64 = 0.1;
-
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
@@ -63,7 +59,7 @@ pub(super) struct Hull<'a> {
 impl<'a> Hull<'a> {
     pub(super) fn of(face: &'a Face<'_>) -> Hull<'a> {
         let points = &face.x[..face.kind.nodes()];
-        Hull { points, margin: if face.is_straight() { 0.0 } else { BULGE * face.size() } }
+        Hull { points, margin: if face.is_straight() { 0.0 } else { face.bulge() } }
     }
 
     /// How far it reaches along a direction, times the length of that.

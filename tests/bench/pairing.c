@@ -33,33 +33,47 @@ static double megabytes(void)
     return (double)usage.ru_maxrss / 1024.0;
 }
 
-/* Nodes of a square grid of the size 1, turned about its middle by `turn` and lifted. */
-static void place(int64_t cells, double turn, double lift, double *x)
+/* Nodes of a square grid of the size 1 with `lines` lines each way, turned about its middle by `turn` and lifted. */
+static void place(int64_t lines, double turn, double lift, double *x)
 {
     const double c = cos(turn), s = sin(turn);
-    for (int64_t k = 0; k < (cells + 1) * (cells + 1); k++) {
-        const double a = (double)(k % (cells + 1)) / (double)cells - 0.5;
-        const double b = (double)(k / (cells + 1)) / (double)cells - 0.5;
+    for (int64_t k = 0; k < lines * lines; k++) {
+        const double a = (double)(k % lines) / (double)(lines - 1) - 0.5;
+        const double b = (double)(k / lines) / (double)(lines - 1) - 0.5;
         x[3 * k] = c * a - s * b;
         x[3 * k + 1] = s * a + c * b;
         x[3 * k + 2] = 0.02 * sin(6.0 * x[3 * k]) * cos(5.0 * x[3 * k + 1]) + lift;
     }
 }
 
-/* Faces of the grid whose first node is `first`, seen from above or from below. */
+/*
+ * Faces of the grid whose first node is `first`, seen from above or from below: nodes of a cell by their places along and
+ * across, in halves of it.
+ */
 static struct side faces(int64_t cells, int kind, int64_t first, int from_below)
 {
-    struct side side = {0, malloc(sizeof(int64_t) * (size_t)(6 * cells * cells))};
+    static const int quad[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+    static const int triangles[2][6][2] = {{{0, 0}, {2, 0}, {2, 2}, {1, 0}, {2, 1}, {1, 1}},
+                                           {{0, 0}, {2, 2}, {0, 2}, {1, 1}, {1, 2}, {0, 1}}};
+    const int corners = kind % 3 == 0 && kind != 9 ? 3 : 4, pieces = corners == 3 ? 2 : 1;
+    const int64_t step = kind > 4 ? 2 : 1, lines = step * cells + 1;
+    struct side side = {0, malloc(sizeof(int64_t) * (size_t)(12 * cells * cells))};
     int64_t at = 0;
     if (side.nodes == NULL)
         exit(EXIT_FAILURE);
-    for (int64_t k = 0; k < cells * cells; k++) {
-        const int64_t a = first + k % cells + (cells + 1) * (k / cells), d = a + cells + 1;
-        const int64_t quad[4] = {a, a + 1, d + 1, d}, triangles[6] = {a, a + 1, d + 1, a, d + 1, d};
-        const int64_t *corners = kind == 4 ? quad : triangles;
-        for (int piece = 0; piece < (kind == 4 ? 1 : 2); piece++, side.faces++)
-            for (int i = 0; i < kind; i++)
-                side.nodes[at++] = corners[kind * piece + (from_below ? kind - 1 - i : i)];
+    for (int64_t k = 0; k < pieces * cells * cells; k++, side.faces++) {
+        const int64_t cell = k / pieces;
+        const int(*places)[2] = corners == 3 ? triangles[k % pieces] : quad;
+        for (int i = 0; i < kind; i++) {
+            /* Turned over, the corners run back, and the mid nodes between them from the last but one. */
+            const int turned = i < corners          ? corners - 1 - i
+                               : i < 2 * corners - 1 ? 3 * corners - 2 - i
+                                                     : i;
+            const int *place = places[from_below ? turned : i];
+            const int64_t along = step * (cell % cells) + place[0] * step / 2;
+            const int64_t across = step * (cell / cells) + place[1] * step / 2;
+            side.nodes[at++] = first + along + lines * across;
+        }
     }
     return side;
 }
@@ -68,17 +82,17 @@ int main(int argc, char **argv)
 {
     const int64_t cells = argc > 1 ? atol(argv[1]) : 0;
     const int kind = argc > 2 ? atoi(argv[2]) : 4;
-    const int64_t grid = (cells + 1) * (cells + 1);
+    const int64_t lines = (kind > 4 ? 2 : 1) * cells + 1, grid = lines * lines;
     double *x = malloc(sizeof(double) * (size_t)(6 * grid));
     signorini_surface_pairs *contact;
     signorini_surface_settings settings;
 
-    if (cells < 1 || (kind != 3 && kind != 4) || x == NULL) {
-        fprintf(stderr, "usage: pairing CELLS 3|4\n");
+    if (cells < 1 || (kind != 3 && kind != 4 && kind != 6 && kind != 8 && kind != 9) || x == NULL) {
+        fprintf(stderr, "usage: pairing CELLS 3|4|6|8|9\n");
         return EXIT_FAILURE;
     }
-    place(cells, 0.0, 0.01 / (double)cells, x);
-    place(cells, 0.1, 0.0, x + 3 * grid);
+    place(lines, 0.0, 0.01 / (double)cells, x);
+    place(lines, 0.1, 0.0, x + 3 * grid);
     const struct side above = faces(cells, kind, 0, 1), below = faces(cells, kind, grid, 0);
     const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = kind,
                                    .count = above.faces, .nodes = above.nodes};

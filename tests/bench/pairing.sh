@@ -25,3 +25,8 @@ done
 for cells in 100 224 350; do
     "$work/pairing" "$cells" 3
 done
+for kind in 6 8 9; do
+    for cells in 70 224; do
+        "$work/pairing" "$cells" "$kind"
+    done
+done

@@ -1,0 +1,182 @@
+//! The geometry of projected faces whose mid nodes stand off the middles of their edges: polynomials of the local
+//! coordinates, whose inverse Newton's method finds from the point that the corners alone give.
+
+use super::bilinear::Bilinear;
+use super::clip::Point;
+use super::face::Face;
+use super::shape::{FaceKind, Local};
+use crate::linalg::vector3::Vector3;
+
+/// Steps of Newton's method to local coordinates. It converges by squares from the face that the corners span; the rest
+/// is for faces at the limit of what is accepted.
+const STEPS: usize = 40;
+
+/// What a step of Newton's method may leave of local coordinates: a thousandth of what points of integration may.
+const LAST: f64 = 1e-15;
+
+/// Powers of a local coordinate.
+const POWERS: usize = 3;
+
+/// `Σ c_ij s^i t^j`.
+type Polynomial = [[f64; POWERS]; POWERS];
+
+/// Positions as polynomials, and how far these are from linear.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curved {
+    x: [Polynomial; 3],
+    centre: Local,
+    /// How much the derivatives change from the middle to a corner, relative to those in the middle.
+    change: f64,
+    lean: f64,
+}
+
+/// The second coordinate of lines: their own, which is zero on them.
+const ACROSS: Polynomial = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+
+/// Through three values at -1, 1 and 0.
+fn parabola(low: f64, high: f64, middle: f64) -> [f64; POWERS] {
+    [middle, 0.5 * (high - low), 0.5 * (high + low) - middle]
+}
+
+/// The polynomial with these values at the nodes of a face.
+fn polynomial(kind: FaceKind, at: impl Fn(usize) -> f64) -> Polynomial {
+    if kind.is_line() {
+        return parabola(at(0), at(1), at(2)).map(|c| [c, 0.0, 0.0]);
+    }
+    if kind.is_triangle() {
+        let [a, b, c, ab, bc, ca] = [0, 1, 2, 3, 4, 5].map(at);
+        let along = |end: f64, mid: f64| [4.0 * mid - 3.0 * a - end, 2.0 * (a + end) - 4.0 * mid];
+        let ([s, ss], [t, tt]) = (along(b, ab), along(c, ca));
+        return [[a, t, tt], [s, 4.0 * (a - ab + bc - ca), 0.0], [ss, 0.0, 0.0]];
+    }
+    let [a, b, c, d, ab, bc, cd, da] = [0, 1, 2, 3, 4, 5, 6, 7].map(&at);
+    // With eight nodes the middle is where `s² t²` has no part.
+    let middle = kind.central_node().map(at);
+    let middle = middle.unwrap_or(0.5 * (ab + bc + cd + da) - 0.25 * (a + b + c + d));
+    let rows = [parabola(a, b, ab), parabola(d, c, cd), parabola(da, bc, middle)];
+    [0, 1, 2].map(|i| parabola(rows[0][i], rows[1][i], rows[2][i]))
+}
+
+/// A polynomial with its derivatives.
+fn evaluate(c: &Polynomial, [s, t]: Local) -> [f64; 3] {
+    let [low, mid, high] = c.map(|[c0, c1, c2]| [c0 + t * (c1 + t * c2), c1 + 2.0 * t * c2]);
+    let sum = |k: usize| low[k] + s * (mid[k] + s * high[k]);
+    [sum(0), mid[0] + 2.0 * s * high[0], sum(1)]
+}
+
+impl Curved {
+    /// Through the nodes of a face in the axes of a plane.
+    pub(super) fn new(face: &Face<'_>) -> Curved {
+        let along = |c: usize| polynomial(face.kind, |node| face.x[node][c]);
+        let across = if face.kind.is_line() { ACROSS } else { along(1) };
+        let x = [along(0), across, along(2)];
+        let mut curved = Curved { x, centre: face.kind.centre(), change: 0.0, lean: 0.0 };
+        curved.measure(face.kind);
+        curved
+    }
+
+    /// Compares derivatives at the corners with those in the middle.
+    fn measure(&mut self, kind: FaceKind) {
+        let [a, b] = self.derivatives(kind.centre());
+        let area = a.cross(&b).z;
+        for &corner in &kind.places()[..kind.corners()] {
+            let [c, d] = self.derivatives(corner);
+            let (e, f) = (c - a, d - b);
+            let steps = [e.cross(&b).z, a.cross(&e).z, f.cross(&b).z, a.cross(&f).z];
+            let [es, et, fs, ft] = steps.map(|step| (step / area).abs());
+            self.change = self.change.max(es + fs).max(et + ft);
+            let normal = c.cross(&d);
+            self.lean = self.lean.max(normal.x.hypot(normal.y) / normal.z.abs());
+        }
+    }
+
+    /// Local coordinates of a point of the plane, from those on the face that the corners span; `None` if there are none.
+    /// Of a strongly curved face the corners may lead away from them.
+    pub(super) fn local(&self, p: Point, corners: &Bilinear) -> Option<Local> {
+        let near = corners.local(p).and_then(|near| self.newton(p, near));
+        near.or_else(|| self.newton(p, self.centre))
+    }
+
+    fn newton(&self, p: Point, mut at: Local) -> Option<Local> {
+        for _ in 0..STEPS {
+            let [[x, a, b], [y, c, d]] = [&self.x[0], &self.x[1]].map(|x| evaluate(x, at));
+            let from = [x - p[0], y - p[1]];
+            let determinant = a * d - b * c;
+            let step = [
+                (from[0] * d - b * from[1]) / determinant,
+                (a * from[1] - from[0] * c) / determinant,
+            ];
+            at = [at[0] - step[0], at[1] - step[1]];
+            // What remains is of the order of its square, by the change of the derivatives.
+            let length = step[0].abs().max(step[1].abs());
+            if self.change * length * length <= LAST {
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    /// The place in the plane.
+    pub(super) fn place(&self, at: Local) -> Point {
+        [&self.x[0], &self.x[1]].map(|x| evaluate(x, at)[0])
+    }
+
+    /// The height above the plane.
+    pub(super) fn height(&self, at: Local) -> f64 {
+        evaluate(&self.x[2], at)[0]
+    }
+
+    /// Derivatives by the local coordinates.
+    pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
+        let [x, y, z] = self.x.each_ref().map(|x| evaluate(x, at));
+        [Vector3::new(x[1], y[1], z[1]), Vector3::new(x[2], y[2], z[2])]
+    }
+
+    /// As [`Bilinear::distortion`]: the inverse of `s + e s² / 2` is analytic up to the distance `1 / 2 e` from the
+    /// middle, half as far as that of a bilinear face.
+    pub(super) fn distortion(&self) -> f64 {
+        2.0 * self.change
+    }
+
+    /// The largest slope against the plane at a corner.
+    pub(super) fn lean(&self) -> f64 {
+        self.lean
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::face::Face;
+    use super::super::shape::FaceKind::{Line3, Q8, Q9, T6};
+    use super::super::shape::MOST_NODES;
+    use super::{Bilinear, Curved, Vector3};
+
+    /// Positions, derivatives and local coordinates are those of the face's shape functions, on edges bent by a tenth.
+    #[test]
+    fn polynomials_are_the_face() {
+        let rng = &mut fastrand::Rng::with_seed(3);
+        for kind in [Line3, T6, Q8, Q9] {
+            let mut x = [Vector3::zeros(); MOST_NODES];
+            for (x, &[s, t]) in x.iter_mut().zip(kind.places()) {
+                let mut bend = || 0.05 * (2.0 * rng.f64() - 1.0);
+                let across = if kind.is_line() { 0.0 } else { t + 0.1 * s + bend() };
+                *x = Vector3::new(s + bend(), across, bend());
+            }
+            let face = Face { kind, nodes: &[], x, is_ring: false };
+            let curved = Curved::new(&face);
+            for _ in 0..20 {
+                let at = [0.8 * rng.f64(), if kind.is_line() { 0.0 } else { 0.2 * rng.f64() }];
+                let place = face.position(at);
+                let found = curved.local([place.x, place.y], &Bilinear::new(&face)).unwrap();
+                // A step may leave 1e-15; coordinates of the size 1 by some ten terms each.
+                assert!((0..2).all(|c| (found[c] - at[c]).abs() < 1e-14), "{kind:?}: {found:?}");
+                assert!((curved.height(at) - place.z).abs() < 1e-15, "{kind:?}");
+                let exact = face.derivatives(at);
+                for c in 0..if kind.is_line() { 1 } else { 2 } {
+                    let miss = (curved.derivatives(at)[c] - exact[c]).norm();
+                    assert!(miss < 1e-14, "{kind:?}, {c}: {miss:e}");
+                }
+            }
+        }
+    }
+}
