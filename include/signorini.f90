@@ -37,7 +37,8 @@
 !               SIGNORINI_LAW_TRESCA (thresholds g, forces); with three parameters a pair
 !               SIGNORINI_LAW_COHESIVE (mu, cohesion b, tension a) and, in 3D,
 !               SIGNORINI_LAW_ORTHOTROPIC, _ORTHOTROPIC_COLLINEAR (mu1, mu2, angle); with four
-!               SIGNORINI_LAW_BY_PAIR (the pair's own law, its parameters, and zeros).
+!               SIGNORINI_LAW_BY_PAIR (the pair's own law, its parameters, and zeros); without
+!               friction SIGNORINI_LAW_TIED.
 !     slip0     reference slip: tangential displacements at which a sticking pair stays, dim - 1 for
 !               each pair. Absent: zeros, the total law. The d_t of the last load step: the
 !               incremental law.
@@ -71,7 +72,8 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC = 4
     integer(c_int32_t), parameter :: SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR = 5
     integer(c_int32_t), parameter :: SIGNORINI_LAW_BY_PAIR = 6
-    integer, parameter, private :: law_numbers(0:6) = [0, 1, 1, 3, 3, 3, 4]
+    integer(c_int32_t), parameter :: SIGNORINI_LAW_TIED = 7
+    integer, parameter, private :: law_numbers(0:7) = [0, 1, 1, 3, 3, 3, 4, 0]
 
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_SOLVED = 0
     integer(c_int32_t), parameter :: SIGNORINI_STATUS_ITERATION_LIMIT = 1

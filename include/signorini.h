@@ -59,8 +59,8 @@
  * frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call. The library
  * starts threads only where settings.threads asks for them. Calls need 64 KiB of stack.
  *
- * The library never prints, exits, reads the environment or handles signals. It opens no file that
- * you do not name. Inside a call floating-point traps and flush-to-zero are off; on return they are
+ * The library never prints, exits, reads the environment, handles signals or opens a file that you
+ * do not name. Inside a call floating-point traps and flush-to-zero are off; on return they are
  * as before. The same input gives the same bits on the same machine.
  *
  * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
@@ -88,13 +88,13 @@ typedef struct signorini_report signorini_report;
 typedef struct signorini_extra signorini_extra;
 
 /* Friction law: how large |F_t| may be. friction holds its parameters for each pair. */
-#define SIGNORINI_LAW_FRICTIONLESS 0 /**< No friction: F_t = 0. friction is not read. */
+#define SIGNORINI_LAW_FRICTIONLESS 0 /**< No friction: F_t = 0. */
 #define SIGNORINI_LAW_COULOMB 1      /**< Coulomb: |F_t| <= mu |F_n|. friction: mu >= 0. */
 #define SIGNORINI_LAW_TRESCA 2 /**< Tresca: |F_t| <= g, open or closed. friction: g >= 0; force. */
 /**
  * Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
  * |F_t| <= b - mu F_n. friction: (mu, b, a), mu >= 0, the tension a >= 0 at which the pair opens,
- * the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap +inf, carries
+ * the cohesion b >= mu a; forces. No memory: an open pair, even with gap +inf, carries
  * a, and friction up to b - mu a; a pair breaks if its b and a are 0 in later load steps.
  */
 #define SIGNORINI_LAW_COHESIVE 3
@@ -107,10 +107,11 @@ typedef struct signorini_extra signorini_extra;
 /** As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule). */
 #define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
 /**
- * A law for each pair. friction: (law, p1, p2, p3), the number of the pair's law and its
- * parameters, unused ones 0.
+ * A law for each pair. friction: (law, p1, p2, p3), the pair's law and its parameters,
+ * unused ones 0.
  */
 #define SIGNORINI_LAW_BY_PAIR 6
+#define SIGNORINI_LAW_TIED 7 /**< Tied: d_n = gap, d_t = slip0, whatever F; gap +inf: free. */
 
 /* State of a pair. */
 /**
@@ -135,8 +136,8 @@ typedef struct signorini_extra signorini_extra;
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
- * @param law       SIGNORINI_LAW_..., the friction law of all pairs
- * @param friction  parameters of the law, pair by pair; NULL if frictionless
+ * @param law       SIGNORINI_LAW_..., the friction law
+ * @param friction  parameters of the law, pair by pair; NULL if it has none
  * @param slip0     reference slip, dim - 1 for each pair; length; NULL: zero. In load steps hand
  *                  over the d_t of the step before
  * @param settings  NULL: the defaults
@@ -292,8 +293,7 @@ struct signorini_pairs {
 
 /**
  * A structure reduced to its contact pairs, for all load cases. It does not change: several
- * threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free releases
- * it.
+ * threads may use one at once (but see SIGNORINI_START_PREVIOUS).
  */
 typedef struct signorini_model signorini_model;
 
@@ -427,7 +427,7 @@ int32_t signorini_model_view(const signorini_model *model, signorini_model_data 
  * ========================================================================================== */
 
 /**
- * Solves load cases with one friction law. Every array has a column for each case, without space
+ * Solves load cases. Every array has a column for each case, without space
  * between the columns. A case that is wrong or not solved does not stop the others. Only the
  * status is written of a case that is wrong, or had not begun when the callback cancelled.
  *
@@ -613,10 +613,10 @@ struct signorini_settings {
 int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct_size);
 
 /**
- * Most bytes that a call with n unknowns may take beside your arrays, with any method, law and
- * setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call that may need
- * more than memory_limit is refused. Some MiB that each thread keeps are not counted. Returns -1
- * if n is negative.
+ * Most bytes that a call with n unknowns may take beside your arrays, with any method, law (ties:
+ * 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call
+ * that may need more than memory_limit is refused. Some MiB that each thread keeps are not
+ * counted. -1 if n is negative.
  */
 int64_t signorini_solve_memory(int64_t n);
 

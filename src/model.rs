@@ -246,7 +246,7 @@ impl Model {
         self.check_formed()?;
         let condensed = || self.condensed_load(case.load, case.prescribed);
         let load = load.map_or_else(condensed, Ok)?;
-        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,

@@ -44,6 +44,7 @@ static const char *law_name(int32_t law)
     case SIGNORINI_LAW_ORTHOTROPIC: return "orthotropic friction";
     case SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: return "orthotropic friction, collinear slip";
     case SIGNORINI_LAW_BY_PAIR: return "a friction law for each pair";
+    case SIGNORINI_LAW_TIED: return "tied";
     default: return "a law that this program does not know";
     }
 }

@@ -45,12 +45,14 @@ impl CaseArguments {
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
+        let law = law::read(arrays, at(3), (self.law, self.friction), pairs)?;
+        guard::reserve_estimate(model.memory_of_ties(law))?;
         Ok(LoadCases {
             model,
+            law,
             load: arrays.matrices(|arrays| arrays.required(at(0), "f", self.f, host))?,
             prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
             gap: arrays.required(at(2), "gap", self.gap, pairs)?,
-            law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
             slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
         })
     }
@@ -77,6 +79,11 @@ pub(super) struct LoadCases<'a> {
 }
 
 impl<'a> LoadCases<'a> {
+    /// Most bytes that a case takes beyond [`Model::memory`].
+    pub(super) fn memory_of_ties(&self) -> u64 {
+        self.model.memory_of_ties(self.law)
+    }
+
     /// The load case number `case`.
     pub(super) fn case(&self, case: usize) -> LoadCase<'a> {
         let (pairs, fixed) = (self.model.pairs(), self.model.fixed_count());

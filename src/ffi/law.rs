@@ -4,7 +4,7 @@ use super::args::Arrays;
 use super::guard::Failure;
 use crate::problem::{FrictionLaw, Law};
 
-/// No friction: F_t = 0. friction is not read.
+/// No friction: F_t = 0.
 pub const SIGNORINI_LAW_FRICTIONLESS: i32 = 0;
 /// Coulomb: |F_t| <= mu |F_n|. friction: mu >= 0.
 pub const SIGNORINI_LAW_COULOMB: i32 = 1;
@@ -12,7 +12,7 @@ pub const SIGNORINI_LAW_COULOMB: i32 = 1;
 pub const SIGNORINI_LAW_TRESCA: i32 = 2;
 /// Coulomb with cohesion and a tension cut-off: F_n <= a, (d_n - gap) (F_n - a) = 0,
 /// |F_t| <= b - mu F_n. friction: (mu, b, a), mu >= 0, the tension a >= 0 at which the pair opens,
-/// the cohesion b >= mu a; forces. The law has no memory: an open pair, even with gap +inf, carries
+/// the cohesion b >= mu a; forces. No memory: an open pair, even with gap +inf, carries
 /// a, and friction up to b - mu a; a pair breaks if its b and a are 0 in later load steps.
 pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 /// Orthotropic, 3D only: (F_1 / mu1)^2 + (F_2 / mu2)^2 <= F_n^2. friction: (mu1, mu2, angle),
@@ -21,9 +21,11 @@ pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
 /// As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;
-/// A law for each pair. friction: (law, p1, p2, p3), the number of the pair's law and its
-/// parameters, unused ones 0.
+/// A law for each pair. friction: (law, p1, p2, p3), the pair's law and its parameters,
+/// unused ones 0.
 pub const SIGNORINI_LAW_BY_PAIR: i32 = 6;
+/// Tied: d_n = gap, d_t = slip0, whatever F; gap +inf: free.
+pub const SIGNORINI_LAW_TIED: i32 = 7;
 
 /// The laws, in the order of [`Law`]; numbered without gaps.
 const NUMBERS: [i32; Law::ALL.len()] = [
@@ -34,6 +36,7 @@ const NUMBERS: [i32; Law::ALL.len()] = [
     SIGNORINI_LAW_ORTHOTROPIC,
     SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
     SIGNORINI_LAW_BY_PAIR,
+    SIGNORINI_LAW_TIED,
 ];
 
 /// The last of the laws.

@@ -7,8 +7,7 @@ use super::guard::{self, Failure};
 use crate::model::{Model, Past};
 
 /// A structure reduced to its contact pairs, for all load cases. It does not change: several
-/// threads may use one at once (but see SIGNORINI_START_PREVIOUS). signorini_model_free releases
-/// it.
+/// threads may use one at once (but see SIGNORINI_START_PREVIOUS).
 pub struct SignoriniModel {
     model: Model,
     /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.

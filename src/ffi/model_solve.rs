@@ -24,7 +24,7 @@ use crate::workers::{SingleThread, Workers};
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
 
-/// Solves load cases with one friction law. Every array has a column for each case, without space
+/// Solves load cases. Every array has a column for each case, without space
 /// between the columns. A case that is wrong or not solved does not stop the others. Only the
 /// status is written of a case that is wrong, or had not begun when the callback cancelled.
 ///
@@ -146,7 +146,8 @@ impl Block<'_> {
         let (threads, memory) = match self.model.is_matrix_free() {
             true => (received.threads, 0),
             false => {
-                (lanes.len(), self.model.memory().saturating_add(self.model.memory_of_cases(BLOCK)))
+                let more = self.model.memory_of_cases(BLOCK) + self.load_cases.memory_of_ties();
+                (lanes.len(), self.model.memory().saturating_add(more))
             }
         };
         with_workers(threads, memory, |workers| {

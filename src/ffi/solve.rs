@@ -12,7 +12,7 @@ use super::settings::SignoriniSettings;
 use super::status::remember_result;
 use crate::error::Argument;
 use crate::problem::ContactProblem;
-use crate::solve::{memory, solve};
+use crate::solve::{memory, memory_of_ties, solve};
 
 /// Solves a contact problem that you have condensed on the N = dim * pairs contact components.
 ///
@@ -26,8 +26,8 @@ use crate::solve::{memory, solve};
 /// @param ldk       entries from one column of K to the next, at least max(1, N)
 /// @param f         condensed nodal loads, N; force
 /// @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
-/// @param law       SIGNORINI_LAW_..., the friction law of all pairs
-/// @param friction  parameters of the law, pair by pair; NULL if frictionless
+/// @param law       SIGNORINI_LAW_..., the friction law
+/// @param friction  parameters of the law, pair by pair; NULL if it has none
 /// @param slip0     reference slip, dim - 1 for each pair; length; NULL: zero. In load steps hand
 ///                  over the d_t of the step before
 /// @param settings  NULL: the defaults
@@ -72,7 +72,8 @@ pub unsafe extern "C" fn signorini_solve(
                 given.position(argument, own)
             })
         };
-        guard::reserve_estimate(memory(data.dim * data.pairs))?;
+        let n = data.dim * data.pairs;
+        guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;
         let problem = ContactProblem::new(data).map_err(from_error)?;
         let start = received.starts_from_given().then(|| outputs.d.read());
         let solution = received

@@ -127,6 +127,11 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.each(d, force).map(|(law, d, force)| law.piece(&law.trial(d, force))).collect()
     }
 
+    /// The pairs that are tied.
+    pub fn ties(&self) -> impl Iterator<Item = usize> {
+        (0..self.pairs.len()).filter(|&pair| self.pairs[pair].is_tied())
+    }
+
     /// The displacements nearest to `d` that do not penetrate.
     pub fn admissible(&self, d: &[f64]) -> Vec<f64> {
         let mut d = d.to_vec();

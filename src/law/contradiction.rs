@@ -39,6 +39,21 @@ pub fn without_friction<'a, R: Clone + Relation>(
     problem.with_law(FrictionLaw::Frictionless)
 }
 
+/// The first of some pairs that is tied with a gap that is not 0, with its gap; none where numbers of pairs are missing.
+pub fn first_open_tie(
+    (gaps, law): (&[f64], FrictionLaw<'_>),
+    mut pairs: impl Iterator<Item = usize>,
+) -> Option<(usize, f64)> {
+    if !law.has_ties() || law.values().len() < law.parameters() * gaps.len() {
+        return None;
+    }
+    let open = |pair: usize| {
+        let gap = *gaps.get(pair)?;
+        (law.is_tied(pair, gap) && gap != 0.0).then_some((pair, gap))
+    };
+    pairs.find_map(open)
+}
+
 /// The first of some pairs whose gap is a penetration, with its gap.
 pub fn first_penetration(gaps: &[f64], pairs: impl Iterator<Item = usize>) -> Option<(usize, f64)> {
     pairs.filter_map(|pair| Some((pair, *gaps.get(pair)?))).find(|&(_, gap)| gap < 0.0)

@@ -19,6 +19,7 @@
 //! | slip to the side `h` in the plane | `F_t = -g h` | `h delta > 0`, `g > 0` |
 //! | slip in space | `F_t = -g A h` | `\|w\| > 1`, `g > 0` |
 //! | no friction | `F_t = 0` | |
+//! | tie | `v = 0` | everywhere |
 
 use super::ellipse::{inverse, product, times, transposed};
 use super::{PairLaw, Plane, Rule, State};
@@ -66,6 +67,10 @@ impl PairLaw {
     /// sides of a slip, the one at the displacement `v` beyond the reference and the force. `None` if the law
     /// has no such piece.
     pub fn enclosed_piece(&self, state: State, v: &[f64], force: &[f64]) -> Option<EnclosedPiece> {
+        if self.tied {
+            let held = EnclosedPiece { law: *self, closed: true, along: Along::Stick };
+            return (state == State::Stick).then_some(held);
+        }
         let closed = state != State::Open;
         if closed && !self.has_obstacle() {
             return None;
@@ -239,6 +244,9 @@ impl EnclosedPiece {
 
     /// Returns `true` if the pair is inside its piece, clear of its boundaries, with every `v` and every force.
     pub fn is_inside(&self, local: &Local, v: &BallVector, force: &BallVector) -> bool {
+        if self.law.tied {
+            return true;
+        }
         let pressure = Ball::exact(self.law.tension) - force[0];
         let normal = match (self.law.has_obstacle(), self.closed) {
             (false, _) => true,

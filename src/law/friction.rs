@@ -3,6 +3,8 @@
 //! The cohesive law, `p >= -a`, `|F_t| <= mu p + b`, is with `p' = p + a` the law `p' >= 0`,
 //! `|F_t| <= mu p' + (b - mu a)`: a bound with a slope and an offset, and a shift of the normal force. It has no
 //! memory: an open pair carries the tension `a` and the friction `b - mu a`, however far it is open.
+//!
+//! A tie has no bound: its force is whatever holds the pair at its reference. Of the pieces of the law it has stick alone.
 
 use super::{Bound, Ellipse, PairLaw, Rule};
 use crate::problem::Law;
@@ -52,6 +54,7 @@ impl PairLaw {
             }
             Law::Orthotropic => elliptic(Rule::Associated),
             Law::OrthotropicCollinear => elliptic(Rule::Collinear),
+            Law::Tied => self.with_bound(Bound::FRICTIONLESS).with_tie(),
         }
     }
 }

@@ -64,7 +64,9 @@ mod state;
 pub use assembly::{Assembly, Image, Unknown};
 pub use bound::{Bound, length};
 pub use contact::Contact;
-pub use contradiction::{exceed_gaps, first_penetration, pressing, without_friction};
+pub use contradiction::{
+    exceed_gaps, first_open_tie, first_penetration, pressing, without_friction,
+};
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use enclosed_piece::{EnclosedPiece, Local};
 pub use fixed_state::FixedState;

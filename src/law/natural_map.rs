@@ -8,7 +8,7 @@
 //! with `back(y)` the trial force `y`, or where its gauge exceeds `g` the friction of a slip that belongs to it: along
 //! its own line, and with an ellipse as its rule says. Of an isotropic law
 //! `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)` the vector `x` shortened by `s`. It is zero
-//! exactly if the law is obeyed.
+//! exactly if the law is obeyed. Of a tie `e = k (d - reference)`, whatever the force.
 
 use super::{Ellipse, PairLaw, State, Vector, length};
 
@@ -44,6 +44,11 @@ impl PairLaw {
     /// Piece by piece, so that a force is not lost in the rounding of a much larger `k_t delta`.
     #[inline]
     pub fn natural_residual(&self, d: &[f64], force: &[f64], residual: &mut [f64]) {
+        if self.tied {
+            residual[0] = self.k_n * (d[0] - self.gap);
+            (1..self.dim).for_each(|c| residual[c] = self.k_t * self.slip_at(d, c));
+            return;
+        }
         // max() of both pieces, so that an infinite gap leaves the force and no NaN.
         residual[0] = (self.k_n * (d[0] - self.gap)).max(force[0] - self.tension);
         let threshold = self.threshold(force[0]);
@@ -63,6 +68,9 @@ impl PairLaw {
     /// rounded once: a normal force and the tension, and two forces on a slip. Elsewhere a component has one term, with
     /// a few roundings.
     pub fn natural_rounding(&self, d: &[f64], force: &[f64]) -> f64 {
+        if self.tied {
+            return 0.0;
+        }
         let threshold = self.threshold(force[0]);
         // For an isotropic law the sum of sizes is above the length, and cheaper.
         let above = |t: &[f64]| t.iter().map(|t| t.abs()).sum::<f64>();
@@ -88,6 +96,9 @@ impl PairLaw {
     /// if it is the nearest point of the disc or the ellipse. On its own line, `g y / |W y|`, it changes by `1 + |W|`
     /// times as much, as `g <= |W y|`.
     pub fn sensitivity(&self) -> f64 {
+        if self.tied {
+            return 0.0;
+        }
         let own_line = self.ellipse.as_ref().filter(|_| self.is_collinear());
         2.0 + self.bound.slope + own_line.map_or(0.0, Ellipse::norm)
     }
@@ -98,7 +109,9 @@ impl PairLaw {
     pub fn state(&self, d: &[f64], force: &[f64], margin: f64) -> State {
         let trial = self.trial(d, force);
         let threshold = self.threshold(force[0]);
-        if trial[0] * self.bound.slope.max(1.0) <= margin {
+        if self.tied {
+            State::Stick
+        } else if trial[0] * self.bound.slope.max(1.0) <= margin {
             State::Open
         } else if threshold > 0.0 && self.gauge(&trial[1..self.dim]) <= threshold + margin {
             State::Stick
@@ -111,6 +124,9 @@ impl PairLaw {
     pub fn admissible_force(&self, force: &[f64], state: State) -> Vector {
         let mut admissible = [0.0; 3];
         admissible[..self.dim].copy_from_slice(force);
+        if self.tied {
+            return admissible;
+        }
         let tension = self.tension;
         admissible[0] = if state == State::Open { tension } else { force[0].min(tension) };
         let threshold = self.threshold(admissible[0]);
@@ -118,8 +134,11 @@ impl PairLaw {
         admissible
     }
 
-    /// How far the pair is outside the law.
+    /// How far the pair is outside the law: of a tie, how far its normal displacement is from its gap.
     pub fn violation(&self, d: &[f64], force: &[f64]) -> Violation {
+        if self.tied {
+            return Violation { penetration: (d[0] - self.gap).abs(), ..Violation::default() };
+        }
         let friction = &force[1..self.dim];
         let mut carried = [0.0; 2];
         let carried = &mut carried[..self.dim - 1];

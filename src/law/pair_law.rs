@@ -19,6 +19,8 @@ pub struct PairLaw {
     pub(super) tension: f64,
     /// `None`: isotropic.
     pub(super) ellipse: Option<Ellipse>,
+    /// `v = 0` whatever the force: no piece but stick, and no bound.
+    pub(super) tied: bool,
     pub(super) k_n: f64,
     pub(super) k_t: f64,
 }
@@ -33,7 +35,7 @@ impl PairLaw {
         bound: Bound,
         (k_n, k_t): (f64, f64),
     ) -> Self {
-        PairLaw { dim, gap, slip0, bound, tension: 0.0, ellipse: None, k_n, k_t }
+        PairLaw { dim, gap, slip0, bound, tension: 0.0, ellipse: None, tied: false, k_n, k_t }
     }
 
     /// Gives the pair a tension `a >= 0` that it may carry: `p >= -a`.
@@ -44,6 +46,16 @@ impl PairLaw {
     /// Gives a pair in space an ellipse in the place of the disc.
     pub fn with_ellipse(self, ellipse: Ellipse) -> Self {
         PairLaw { ellipse: Some(ellipse), ..self }
+    }
+
+    /// Ties the pair to its reference, if there is an obstacle.
+    pub fn with_tie(self) -> Self {
+        PairLaw { tied: self.has_obstacle(), ..self }
+    }
+
+    /// Returns `true` if the pair is tied.
+    pub fn is_tied(&self) -> bool {
+        self.tied
     }
 
     /// The tension that the pair may carry, a force.
@@ -100,9 +112,9 @@ impl PairLaw {
         PairLaw { gap, slip0: [0.0; 2], ..*self }
     }
 
-    /// The normal displacement nearest to `d_n` that does not penetrate.
+    /// The normal displacement nearest to `d_n` that does not penetrate, and of a tie does not open.
     pub fn admissible(&self, d_n: f64) -> f64 {
-        d_n.min(self.gap)
+        if self.tied { self.gap } else { d_n.min(self.gap) }
     }
 
     /// Bound on the tangential force at the normal force `f_n`, which may be tensile.
@@ -110,15 +122,15 @@ impl PairLaw {
         self.bound.at((self.tension - f_n).max(0.0))
     }
 
-    /// Returns `true` if zero displacement without a normal force is admissible: no interference, and no tension
-    /// across an open gap.
+    /// Returns `true` if zero displacement without a normal force is admissible: no interference, and no tension or
+    /// tie across an open gap.
     pub fn admits_zero(&self) -> bool {
-        if self.tension > 0.0 { self.gap == 0.0 } else { self.gap >= 0.0 }
+        if self.tension > 0.0 || self.tied { self.gap == 0.0 } else { self.gap >= 0.0 }
     }
 
-    /// Returns `true` if a pair with the normal displacement `d_n` touches its obstacle, or penetrates it.
+    /// Returns `true` if a pair with the normal displacement `d_n` touches its obstacle, penetrates it, or is tied.
     pub fn touches(&self, d_n: f64) -> bool {
-        d_n >= self.gap
+        self.tied || d_n >= self.gap
     }
 
     /// Largest displacement that contact itself has prescribed to the pair at `d_n`: by a gap that has

@@ -12,7 +12,7 @@
 //! with `q = g / gauge(y_t)`, `h = y_t / gauge(y_t)` and `c = Q h`, `Q` the form of the gauge: `c . h = 1`,
 //! so that `T h = 0`. Of an isotropic law `h = c` is the unit vector of the slip.
 //!
-//! In the plane, and without friction, `T = 0`: the law is piecewise linear, and the equations of a
+//! A tie is on stick everywhere. In the plane, and without friction, `T = 0`: the law is piecewise linear, and the equations of a
 //! piece are exact everywhere on it.
 
 use super::{PairLaw, Vector};
@@ -69,6 +69,9 @@ impl Piece {
 impl PairLaw {
     /// The piece of the normal map at the coordinates `y` of the chart.
     pub fn piece(&self, y: &Vector) -> Piece {
+        if self.tied {
+            return self.stick();
+        }
         let closed = self.has_obstacle() && y[0] > 0.0;
         let threshold = self.bound.at(if closed { y[0] } else { 0.0 });
         let tangential = if threshold == 0.0 {
@@ -93,7 +96,8 @@ impl PairLaw {
 
     /// Closed if there is an obstacle, and sticking if there is friction.
     pub fn stick(&self) -> Piece {
-        let tangential = if self.has_friction() { Tangential::Stick } else { Tangential::Free };
+        let sticks = self.has_friction() || self.tied;
+        let tangential = if sticks { Tangential::Stick } else { Tangential::Free };
         Piece { closed: self.has_obstacle(), tangential }
     }
 
@@ -126,6 +130,9 @@ impl PairLaw {
 
     /// Distance of the trial forces `y` from where pieces meet, a force.
     pub fn distance_to_kink(&self, y: &Vector) -> f64 {
+        if self.tied {
+            return f64::INFINITY;
+        }
         let threshold = self.bound.at(y[0].max(0.0));
         let normal = y[0].abs();
         if threshold == 0.0 {

@@ -17,9 +17,9 @@ use super::{Boundary, Linearised, PairLaw, Piece, Tangential, Vector};
 const INSIDE: f64 = 0.999;
 
 impl PairLaw {
-    /// Returns `true` if a pair that is open carries no force at all.
+    /// Returns `true` if a pair that is open carries no force at all. A tie does not open.
     pub fn is_free_when_open(&self) -> bool {
-        self.bound.is_cone() && self.tension == 0.0
+        self.bound.is_cone() && self.tension == 0.0 && !self.tied
     }
 
     /// The coordinates `y`, or, where the pair slips there against the direction in which it slipped at

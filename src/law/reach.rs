@@ -36,7 +36,7 @@ pub fn gaps_within_reach<R: Relation>(
             reach = reach.max(slip.abs() * root(first + 1 + c));
         }
         let length = law.gap.abs() * root(first);
-        if law.gap < 0.0 {
+        if law.gap < 0.0 || law.tied {
             reach = reach.max(length);
         } else if law.has_obstacle() {
             lengths.push((length, pair));

@@ -13,13 +13,24 @@
 //! pairs counts as a part of the loads ([`super::Contact::load_with_tension`]). Of a pair that has an obstacle
 //! `r_n <= 0`: tension takes the work `a |r_n|`.
 
-use super::{Contact, PairLaw, Vector};
+use super::{Contact, PairLaw, Vector, length};
 use crate::problem::Relation;
+
+/// Edges of the cone of all forces.
+const ALL_FORCES: [Vector; 6] = [
+    [1.0, 0.0, 0.0],
+    [-1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+];
 
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Recession {
-    /// `r_n + slope |r_t|*`, which must not be positive; `-inf` without an obstacle.
+    /// `r_n + slope |r_t|*`, which must not be positive; `-inf` without an obstacle; of a tie the length of the motion,
+    /// tangential components by the roots of their stiffness.
     pub approach: f64,
     /// `slope |r_t|*`: the lift that keeps contact forces from doing negative work on the slip.
     pub lift: f64,
@@ -43,6 +54,10 @@ impl<R: Relation> Contact<'_, R> {
 impl PairLaw {
     /// The motion `r` of the pair.
     pub fn recession(&self, r: &[f64]) -> Recession {
+        if self.tied {
+            let along = (self.k_t / self.k_n).sqrt() * length(&r[1..self.dim]);
+            return Recession { approach: r[0].hypot(along), lift: 0.0, resisted: 0.0 };
+        }
         let slip = self.dual_gauge(&r[1..self.dim]);
         let lift = self.bound.slope * slip;
         let approach = if self.has_obstacle() { r[0] + lift } else { f64::NEG_INFINITY };
@@ -62,10 +77,14 @@ impl PairLaw {
     }
 
     /// Some edges of the cone of forces that the pair can carry beside its tension, each with the normal
-    /// component −1: all in the plane, four in space; none without an obstacle. The law's bound is a cone.
+    /// component −1: all in the plane, four in space; none without an obstacle. The law's bound is a cone. A tie carries
+    /// all forces.
     pub fn cone_edges(&self) -> Vec<Vector> {
         let mu = self.bound.slope;
         match self.dim {
+            dim if self.tied => {
+                ALL_FORCES.into_iter().filter(|f| dim == 3 || f[2] == 0.0).collect()
+            }
             _ if !self.has_obstacle() => Vec::new(),
             _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
             2 => vec![[-1.0, mu, 0.0], [-1.0, -mu, 0.0]],
@@ -82,6 +101,10 @@ impl PairLaw {
     /// The edge of the cone whose force does the least work on the motion `r`: the work is
     /// `-(r_n + slope |r_t|*)`. The law's bound is a cone.
     pub fn opposing_edge(&self, r: &[f64]) -> Vector {
+        if self.tied {
+            let against = |c: usize| r.get(c).map_or(0.0, |r| -r);
+            return [against(0), against(1), against(2)];
+        }
         let mut edge = [-1.0, 0.0, 0.0];
         let mut against = [0.0; 2];
         against[..self.dim - 1].copy_from_slice(&r[1..self.dim]);

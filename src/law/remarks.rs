@@ -9,9 +9,10 @@ use crate::problem::{ContactProblem, FrictionLaw, Parameter, Relation};
 /// about 1.
 const LARGE_FRICTION: f64 = 10.0;
 
-/// Returns `true` if every finite gap is negative, and there is one.
+/// The deepest gap, if every finite one is negative, and there is one. Ties prescribe theirs.
 pub fn deepest_of_negative_gaps<R: Relation>(problem: &ContactProblem<'_, R>) -> Option<f64> {
-    let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
+    let gaps = (0..problem.pairs()).filter(|&pair| !problem.is_tied(pair));
+    let gaps = gaps.map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
     let largest = gaps.clone().fold(f64::NEG_INFINITY, f64::max);
     (largest < 0.0 && largest.is_finite()).then(|| -gaps.fold(0.0, f64::min))
 }

@@ -1,8 +1,8 @@
 //! Checks of a model's arrays.
 
 use crate::error::{Argument, Error, entry};
-use crate::law::first_penetration;
-use crate::problem::check_finite;
+use crate::law::{first_open_tie, first_penetration};
+use crate::problem::{FrictionLaw, check_finite};
 
 /// Refuses a vector of the wrong length, or with entries that are not finite.
 pub(super) fn check_vector(
@@ -18,17 +18,24 @@ pub(super) fn check_vector(
     check_finite(argument, name, values)
 }
 
-/// Refuses a penetration that supports on both sides of a pair hold: no displacement takes it away.
+/// Refuses a penetration, and the gap of a tie, that supports on both sides of a pair hold: no displacement takes it away.
 pub(super) fn check_fixed_gaps(
     fixed_components: &[usize],
     dim: usize,
     gaps: &[f64],
+    law: FrictionLaw<'_>,
 ) -> Result<(), Error> {
     let normals = fixed_components.iter().filter(|&component| component % dim == 0);
-    let Some((pair, gap)) = first_penetration(gaps, normals.map(|component| component / dim))
-    else {
-        return Ok(());
-    };
+    let normals = normals.map(|component| component / dim);
+    if let Some((pair, gap)) = first_open_tie((gaps, law), normals.clone()) {
+        let message = format!(
+            "{} is {gap}, and the pair is tied, but both sides are fixed along its normal: set the gap to 0, release \
+             a side, or leave the pair out",
+            entry("gap", [pair])
+        );
+        return Err(Error::invalid(Argument::Gap, message));
+    }
+    let Some((pair, gap)) = first_penetration(gaps, normals) else { return Ok(()) };
     let message = format!(
         "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing can part \
          them: set the gap to 0, release a side, or leave the pair out",

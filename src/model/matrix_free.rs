@@ -40,7 +40,7 @@ impl Model {
         to: impl FnOnce(&mut dyn StiffnessOperator, &MatrixFreeCase<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_loads(Some(case.load), case.prescribed)?;
-        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let load = matrix_free.all_loads(case.load, case.prescribed);
         let case = MatrixFreeCase {

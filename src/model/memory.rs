@@ -1,8 +1,8 @@
 //! Most bytes that the calls of a model take, known before work begins.
 
 use super::{BLOCK, Model};
-use crate::problem::Dependence;
-use crate::solve::{memory, memory_matrix_free, memory_of_flexibility};
+use crate::problem::{Dependence, FlexibilityForm, FrictionLaw};
+use crate::solve::{memory, memory_matrix_free, memory_of_flexibility, memory_of_ties};
 use crate::workers::SingleThread;
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
@@ -21,6 +21,18 @@ impl Model {
         // Dependent rows are solved with springs between bodies and contact.
         let springs = self.reduction.dependence().map_or(0, Dependence::variables);
         memory(self.dim * self.pairs + springs)
+    }
+
+    /// Most bytes that a load case under this law takes beyond [`Self::memory`].
+    pub(crate) fn memory_of_ties(&self, law: FrictionLaw<'_>) -> u64 {
+        let whole = self.dim * self.pairs;
+        match self.reduction.flexibility() {
+            _ if self.is_matrix_free() => 0,
+            Some(FlexibilityForm::Sparse(matrix)) => {
+                memory_of_ties(law, matrix.dim() * matrix.islands().largest().len())
+            }
+            _ => memory_of_ties(law, whole),
+        }
     }
 
     /// Most bytes that condensing so many load cases takes beside the model and what the host holds.

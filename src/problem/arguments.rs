@@ -1,7 +1,9 @@
 //! Checks of the arrays of a call.
 
+use std::fmt::Display;
+
 use crate::error::{Argument, Error, entry};
-use crate::linalg::matrix::{Matrix, required_length};
+use crate::linalg::matrix::{Matrix, can_exist, required_length};
 use crate::linalg::vector::first_not_finite;
 
 /// The arguments of the first or only matrix of a call.
@@ -59,4 +61,31 @@ pub(crate) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Re
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
     }
+}
+
+/// A space dimension, which must be 2 or 3.
+pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
+    match dim.try_into() {
+        Ok(dim @ (2 | 3)) => Ok(dim),
+        _ => {
+            let message = format!("dim is {dim}, it must be 2 or 3");
+            Err(Error::invalid(Argument::Dimension, message))
+        }
+    }
+}
+
+/// Number of unknowns `dim * pairs`, if a matrix of that size can exist.
+pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
+    dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
+        Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
+    })
+}
+
+/// Refuses a gap that is neither a number nor `+inf`.
+pub(super) fn check_gaps(gap: &[f64]) -> Result<(), Error> {
+    let wrong = gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY);
+    let Some(i) = wrong else { return Ok(()) };
+    let (place, gap) = (entry("gap", [i]), gap[i]);
+    let message = format!("{place} is {gap}, it must be a number or +inf (never touches)");
+    Err(Error::invalid(Argument::Gap, message))
 }

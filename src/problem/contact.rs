@@ -12,39 +12,16 @@
 //! Other laws: [`FrictionLaw`]. `K` is symmetric and positive semi-definite: bodies that only contact
 //! supports are allowed. What the data mean for the forces is in the room [`crate::law`].
 
-use std::fmt::Display;
-
-use super::arguments::{OF_MATRIX, check_length, dense, vector};
+use super::arguments::{OF_MATRIX, check_gaps, check_length, checked_dim, dense, unknowns, vector};
+use super::contact_data::ContactData;
 use super::friction_law::FrictionLaw;
 use super::relation::{Relation, Stiffness};
 use super::remembered::Remembered;
 use super::symmetric_matrix;
 use crate::error::{Argument, Error, entry};
-use crate::linalg::matrix::{Matrix, can_exist};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::{largest_eigenvalue, sizes};
-
-/// The caller's arrays, not yet checked. Forces and displacements are in the caller's units.
-#[derive(Clone, Copy, Debug)]
-pub struct ContactData<'a> {
-    /// Space dimension, 2 or 3.
-    pub dim: usize,
-    /// Number of contact pairs, 0 allowed.
-    pub pairs: usize,
-    /// `K`, `dim * pairs` columns of the same number of rows, column-major.
-    pub stiffness: &'a [f64],
-    /// Entries from the beginning of one column of `stiffness` to that of the next.
-    pub ld: usize,
-    /// `f`, the condensed nodal loads, `dim * pairs`.
-    pub load: &'a [f64],
-    /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
-    pub gap: &'a [f64],
-    /// The friction law.
-    pub law: FrictionLaw<'a>,
-    /// Reference slip `slip0`: the tangential displacement of each pair at which its friction carries
-    /// no memory of a slip, `(dim - 1) * pairs`; `None` is zero (the paper's total law).
-    pub reference_slip: Option<&'a [f64]>,
-}
 
 /// A checked contact problem, a view of the caller's arrays. `R` is the form of the relation between
 /// displacements and contact forces.
@@ -55,6 +32,8 @@ pub struct ContactProblem<'a, R = Stiffness<'a>> {
     gap: &'a [f64],
     law: FrictionLaw<'a>,
     reference_slip: Option<&'a [f64]>,
+    /// Which pairs of the host's problem these are, and how many that has; `None`: all of them.
+    host: Option<(&'a [usize], usize)>,
 }
 
 impl<'a> ContactProblem<'a> {
@@ -150,6 +129,25 @@ impl<'a> ContactProblem<'a> {
         ContactProblem { relation, ..*self }
     }
 
+    /// The problem of some of the pairs, with the block of `K` and the data that are theirs.
+    pub(crate) fn on_part<'b>(
+        &self,
+        matrix: Matrix<'b>,
+        load: &'b [f64],
+        (gap, law, slip): (&'b [f64], FrictionLaw<'b>, &'b [f64]),
+    ) -> ContactProblem<'b> {
+        let Stiffness { symmetric, rounding, .. } = self.relation;
+        let relation = Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, self.dim) };
+        let (dim, reference_slip) = (self.dim, Some(slip));
+        ContactProblem { relation, dim, gap, law, reference_slip, host: None }
+    }
+
+    /// Tells the problem which of the `count` pairs of the host's problem its pairs are, for words.
+    pub(crate) fn of_host(mut self, pairs: &'a [usize], count: usize) -> Self {
+        self.host = Some((pairs, count));
+        self
+    }
+
     /// Copies the problem with other gaps, one for each pair.
     pub(crate) fn with_gaps<'b>(&self, gap: &'b [f64]) -> ContactProblem<'b>
     where
@@ -222,7 +220,7 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         let (gap, law) = (&gap[..pairs], law.truncated(pairs));
         check_gaps(gap)?;
         law.check(dim)?;
-        Ok(ContactProblem { relation, dim, gap, law, reference_slip })
+        Ok(ContactProblem { relation, dim, gap, law, reference_slip, host: None })
     }
 
     /// Copies the problem with another law, whose parameters fit its pairs.
@@ -246,6 +244,16 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     /// Number of contact pairs.
     pub fn pairs(&self) -> usize {
         self.gap.len()
+    }
+
+    /// Which pair of the host's problem a pair is.
+    pub(crate) fn host_pair(&self, pair: usize) -> usize {
+        self.host.map_or(pair, |(pairs, _)| pairs[pair])
+    }
+
+    /// Number of pairs of the host's problem.
+    pub(crate) fn host_pairs(&self) -> usize {
+        self.host.map_or(self.pairs(), |(_, count)| count)
     }
 
     /// Number of unknowns, `D` for each pair.
@@ -295,9 +303,9 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     where
         'a: 'b,
     {
-        let (dim, gap, law) = (self.dim, self.gap, self.law);
+        let (dim, gap, law, host) = (self.dim, self.gap, self.law, self.host);
         let relation = Stiffness::new(matrix, load, dim);
-        ContactProblem { relation, dim, gap, law, reference_slip: Some(reference_slip) }
+        ContactProblem { relation, dim, gap, law, reference_slip: Some(reference_slip), host }
     }
 
     /// Gap of a pair, `+inf` if it never touches.
@@ -310,6 +318,11 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         self.law
     }
 
+    /// Returns `true` if a pair is tied.
+    pub fn is_tied(&self, pair: usize) -> bool {
+        self.law.is_tied(pair, self.gap[pair])
+    }
+
     /// All reference slips, pair by pair; empty if they are zero.
     pub(super) fn reference_slips(&self) -> &'a [f64] {
         self.reference_slip.unwrap_or(&[])
@@ -319,30 +332,4 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     pub fn reference_slip(&self, pair: usize, component: usize) -> f64 {
         self.reference_slip.map_or(0.0, |slip| slip[(self.dim - 1) * pair + component])
     }
-}
-
-/// A space dimension, which must be 2 or 3.
-pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
-    match dim.try_into() {
-        Ok(dim @ (2 | 3)) => Ok(dim),
-        _ => {
-            let message = format!("dim is {dim}, it must be 2 or 3");
-            Err(Error::invalid(Argument::Dimension, message))
-        }
-    }
-}
-
-/// Number of unknowns `dim * pairs`, if a matrix of that size can exist.
-pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
-    dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
-    })
-}
-
-fn check_gaps(gap: &[f64]) -> Result<(), Error> {
-    let wrong = gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY);
-    let Some(i) = wrong else { return Ok(()) };
-    let (place, gap) = (entry("gap", [i]), gap[i]);
-    let message = format!("{place} is {gap}, it must be a number or +inf (never touches)");
-    Err(Error::invalid(Argument::Gap, message))
 }

@@ -12,8 +12,8 @@
 //! Forces are compared with displacements by one unit of force per length for the normal of a pair, `1 / W_nn`,
 //! and one for its tangents, one over the largest eigenvalue of its tangential block.
 
-use super::arguments::{OF_MATRIX, dense, vector};
-use super::contact::{ContactProblem, checked_dim, unknowns};
+use super::arguments::{OF_MATRIX, checked_dim, dense, unknowns, vector};
+use super::contact::ContactProblem;
 use super::flexibility_form::FlexibilityForm;
 use super::friction_law::FrictionLaw;
 use super::relation::{Redundant, Relation};

@@ -28,6 +28,8 @@ pub enum FrictionLaw<'a> {
     /// A law of its own for each pair. Four numbers a pair: [`Law::number`] of its law, and the parameters of that
     /// law, followed by zeros.
     ByPair(&'a [f64]),
+    /// A tie: `d_n = gap` and `d_t = slip0`, whatever the force. A pair with the gap `+inf` is free. No parameters.
+    Tied,
 }
 
 impl Law {
@@ -41,6 +43,7 @@ impl Law {
             Law::Orthotropic => FrictionLaw::Orthotropic(values),
             Law::OrthotropicCollinear => FrictionLaw::OrthotropicCollinear(values),
             Law::ByPair => FrictionLaw::ByPair(values),
+            Law::Tied => FrictionLaw::Tied,
         }
     }
 }
@@ -56,6 +59,7 @@ impl<'a> FrictionLaw<'a> {
             FrictionLaw::Orthotropic(values) => (Law::Orthotropic, values),
             FrictionLaw::OrthotropicCollinear(values) => (Law::OrthotropicCollinear, values),
             FrictionLaw::ByPair(values) => (Law::ByPair, values),
+            FrictionLaw::Tied => (Law::Tied, &[]),
         }
     }
 
@@ -99,6 +103,20 @@ impl<'a> FrictionLaw<'a> {
     /// Numbers of each pair before the parameters of its law: the number of that law, if each pair has its own.
     fn numbers_before(&self) -> usize {
         usize::from(self.law() == Law::ByPair)
+    }
+
+    /// Returns `true` if the law ties some pair, whatever its gap.
+    pub fn has_ties(&self) -> bool {
+        let own = self.values().chunks_exact(self.parameters().max(1));
+        match self.law() {
+            Law::ByPair => own.into_iter().any(|numbers| numbers[0] == Law::Tied.number()),
+            law => law == Law::Tied,
+        }
+    }
+
+    /// Returns `true` if a pair with this gap is tied.
+    pub fn is_tied(&self, pair: usize, gap: f64) -> bool {
+        self.of_pair(pair).0 == Law::Tied && gap < f64::INFINITY
     }
 
     /// Names and meanings of the numbers of a pair: those of its own law where it has one.

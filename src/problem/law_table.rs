@@ -17,6 +17,8 @@ pub enum Law {
     OrthotropicCollinear,
     /// A law of its own for each pair.
     ByPair,
+    /// No relative motion, whatever the force.
+    Tied,
 }
 
 /// The meaning of a parameter, with the values that it may have.
@@ -98,6 +100,13 @@ const LAWS: [Statement; Law::ALL.len()] = [
         frictionless_if: "that of every pair must be without friction",
         check: |_| None,
     },
+    Statement {
+        name: "tied",
+        title: "a tie",
+        parameters: &[],
+        frictionless_if: "every pair must be tied",
+        check: |_| None,
+    },
 ];
 
 /// The statement of both laws with an ellipse, which exist in space alone.
@@ -144,7 +153,7 @@ fn flatness(numbers: &[f64]) -> Option<(usize, String)> {
 
 impl Law {
     /// All of them, in the order of their numbers.
-    pub const ALL: [Law; 7] = [
+    pub const ALL: [Law; 8] = [
         Law::Frictionless,
         Law::Coulomb,
         Law::Tresca,
@@ -152,6 +161,7 @@ impl Law {
         Law::Orthotropic,
         Law::OrthotropicCollinear,
         Law::ByPair,
+        Law::Tied,
     ];
 
     /// The law that a pair can have by itself, with this number.

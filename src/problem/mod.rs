@@ -3,6 +3,7 @@
 mod arguments;
 mod bounded_lcp;
 mod contact;
+mod contact_data;
 mod dependent_rows;
 mod flexibility;
 mod flexibility_form;
@@ -18,10 +19,10 @@ mod stiffness_operator;
 pub(crate) mod symmetric_matrix;
 mod units;
 
-pub(crate) use arguments::{OF_MATRIX, check_finite, dense};
+pub(crate) use arguments::{OF_MATRIX, check_finite, checked_dim, dense, unknowns};
 pub(crate) use bounded_lcp::BoundedLcp;
-pub use contact::{ContactData, ContactProblem};
-pub(crate) use contact::{checked_dim, unknowns};
+pub use contact::ContactProblem;
+pub use contact_data::ContactData;
 pub use dependent_rows::Dependence;
 pub(crate) use dependent_rows::DependentRows;
 pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};

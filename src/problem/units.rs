@@ -98,7 +98,8 @@ pub fn in_units<R: ChangesUnits, T>(
     let units = Units::of(problem)?;
     let gap = |pair| {
         let gap = problem.gap(pair);
-        let far = (gap > 0.0 && units.length > 0).then_some(f64::INFINITY);
+        let is_far = gap > 0.0 && units.length > 0 && !problem.is_tied(pair);
+        let far = is_far.then_some(f64::INFINITY);
         exactly(gap, units.length).or(far)
     };
     let gap: Vec<f64> = (0..problem.pairs()).map(gap).collect::<Option<_>>()?;

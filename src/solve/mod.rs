@@ -37,6 +37,7 @@ pub(crate) use operator::{
     Case as MatrixFreeCase, CasePast, certify as certify_matrix_free, memory as memory_matrix_free,
     solve as solve_matrix_free,
 };
+pub(crate) use plan::memory_of_ties;
 pub(crate) use proximal::largest_island;
 pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_flexibility};
 use result::{Call, Solve, check_limit};
@@ -58,7 +59,8 @@ pub(crate) fn solve_dependent(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let by = (settings, plan::solve as Solve);
-    check(settings, || memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    let bytes = || memory(problem.unknowns()) + copies_of(problem);
+    check(settings, bytes, ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.lengths(start));
         let solution = proximal::solve_dependent(problem, by, start.as_deref(), monitor)?;
@@ -93,15 +95,21 @@ pub fn solve_flexibility(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let (form, by) = (problem.relation().form(), (settings, plan::solve as Solve));
-    let copy = || if let FlexibilityForm::Dense(_) = form { copy_of(problem) } else { 0 };
-    check(settings, || memory_of_flexibility(form) + copy(), ("F", problem, start)).map_err(
-        |error| match (&error, largest_island(form)) {
+    let copy = || match form {
+        FlexibilityForm::Dense(_) => copies_of(problem),
+        FlexibilityForm::Sparse(w) => {
+            memory_of_ties(problem.law(), w.dim() * w.islands().largest().len())
+        }
+    };
+    let bytes = || memory_of_flexibility(form) + copy();
+    check(settings, bytes, ("F", problem, start)).map_err(|error| {
+        match (&error, largest_island(form)) {
             (Error::Stopped { limit: Limit::Memory, .. }, Some(island)) => {
                 Error::stopped(Limit::Memory, format!("{}: {island}", error.message().marked()))
             }
             _ => error,
-        },
-    )?;
+        }
+    })?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.forces(start));
         let solution = proximal::solve_flexibility(problem, by, start.as_deref(), monitor)?;
@@ -123,7 +131,8 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    check(settings, || memory(problem.unknowns()) + copy_of(problem), ("d", problem, start))?;
+    let bytes = || memory(problem.unknowns()) + copies_of(problem);
+    check(settings, bytes, ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.lengths(start));
         let solution = solve_as_it_stands(problem, settings, start.as_deref(), monitor)?;
@@ -149,19 +158,31 @@ fn solve_as_it_stands(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let call = Call { contact: &contact, settings, start };
-    let mut solution = plan::solve(&call, monitor)?;
-    if solution.status == Status::NoEquilibrium {
-        let (balance, solve) = (Balance::new(&contact, monitor), Some(plan::solve as Solve));
-        rigid::describe(&contact, &mut solution, balance, solve, monitor)?;
-    }
-    uniqueness::by_orientation(&contact, &mut solution, monitor);
-    if settings.search == Search::Others && !monitor.is_late() {
-        uniqueness::examine(&call, &mut solution, monitor)?;
-    }
+    let Some(mut solution) = plan::without_ties(&call, solve_with_questions, monitor)? else {
+        return solve_with_questions(&call, monitor);
+    };
     if settings.proof {
         uniqueness::prove(&call, &mut solution, monitor);
     }
-    plan::add_remarks(&call, &mut solution, monitor);
+    Ok(solution)
+}
+
+/// Solves a problem without ties, and answers what the settings ask of its solution.
+fn solve_with_questions(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    let (contact, settings) = (call.contact, call.settings);
+    let mut solution = plan::solve(call, monitor)?;
+    if solution.status == Status::NoEquilibrium {
+        let (balance, solve) = (Balance::new(contact, monitor), Some(plan::solve as Solve));
+        rigid::describe(contact, &mut solution, balance, solve, monitor)?;
+    }
+    uniqueness::by_orientation(contact, &mut solution, monitor);
+    if settings.search == Search::Others && !monitor.is_late() {
+        uniqueness::examine(call, &mut solution, monitor)?;
+    }
+    if settings.proof {
+        uniqueness::prove(call, &mut solution, monitor);
+    }
+    plan::add_remarks(call, &mut solution, monitor);
     Ok(solution)
 }
 
@@ -190,10 +211,11 @@ fn finished<R: Relation>(
     solution
 }
 
-/// Bytes of the copy of the matrix of a problem that is solved in other units.
-fn copy_of<R: Relation>(problem: &ContactProblem<'_, R>) -> u64 {
+/// Bytes of copies of the matrix of a problem: one in other units, and one of the pairs that are not tied.
+fn copies_of<R: Relation>(problem: &ContactProblem<'_, R>) -> u64 {
     let size = problem.unknowns();
-    if Units::of(problem).is_some() { (size * size * size_of::<f64>()) as u64 } else { 0 }
+    let in_units = if Units::of(problem).is_some() { size * size * size_of::<f64>() } else { 0 };
+    in_units as u64 + memory_of_ties(problem.law(), size)
 }
 
 /// Refuses settings out of range, a call that needs more bytes than they allow, and a start of a wrong length

@@ -151,7 +151,7 @@ impl Numbers {
             Law::OrthotropicCollinear => {
                 (Bound::orthotropic([n[0], n[1]]), 0.0, Some(axes(Rule::Collinear)))
             }
-            Law::ByPair => unreachable!("a pair has a law of its own"),
+            Law::ByPair | Law::Tied => unreachable!("no bound of one pair"),
         };
         Numbers { dim, gap: 0.0, slip0: [0.0; 2], bound, tension, axes, k: (1.0, 1.0) }
     }

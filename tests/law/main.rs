@@ -12,5 +12,6 @@ mod friction_laws;
 mod pieces;
 mod rounding;
 mod statement;
+mod ties;
 mod uses;
 mod values;

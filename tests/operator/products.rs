@@ -286,6 +286,37 @@ fn blocks_in_the_plane_take_few_products() {
     }
 }
 
+/// Every third pair tied, with a gap and a slip of its own: products and `W` alone, and solutions with components held,
+/// give what the dense matrix gives.
+#[test]
+fn ties_are_held_by_products_alone() {
+    let asked = Asked::none();
+    for (condensed, name) in [(Condensed::plane(60), "plane"), (Condensed::space(5), "space")] {
+        let pairs = condensed.gap.len();
+        let numbers: Vec<f64> = (0..pairs)
+            .flat_map(|j| if j % 3 == 0 { [7.0, 0.0, 0.0, 0.0] } else { [1.0, 0.3, 0.0, 0.0] })
+            .collect();
+        let slip: Vec<f64> =
+            (0..(condensed.dim - 1) * pairs).map(|i| 1e-3 * (i % 5) as f64).collect();
+        let case = LoadCase {
+            load: &condensed.f,
+            prescribed: None,
+            gap: &condensed.gap,
+            law: FrictionLaw::ByPair(&numbers),
+            reference_slip: Some(&slip),
+        };
+        let settings = Settings::default();
+        let solve = |model: &Model| {
+            model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
+        };
+        let dense = solve(&condensed.dense());
+        for holds in [false, true] {
+            let model = condensed.operator(condensed.host(holds, &asked)).unwrap();
+            same(&solve(&model), &dense, &format!("{name}, with held {holds}"));
+        }
+    }
+}
+
 /// Random definite problems with friction up to 20, of which theory promises that each has a solution: the paths
 /// behind Newton's method find one, with components held, and with products and `W` alone.
 fn check_hard_friction(dim: usize) {

@@ -62,16 +62,21 @@ class Files(unittest.TestCase):
             ("cohesive", 2, [0.3, 0.7, 0.1]), ("cohesive", 3, [0.3, 0.7, 0.1]),
             ("orthotropic", 3, [0.3, 0.7, 0.1]), ("orthotropic_collinear", 3, [0.3, 0.7, 0.1]),
             ("by_pair", 2, [[0, 0, 0, 0], [1, 0.3, 0, 0], [2, 0.7, 0, 0], [3, 0.3, 0.7, 0.1]]),
+            ("tied", 3, None),
+            ("by_pair", 2, [[7, 0, 0, 0], [1, 0.3, 0, 0], [2, 0.7, 0, 0], [0, 0, 0, 0]]),
             ("by_pair", 3, [[4, 0.3, 0.7, 0.1], [5, 0.3, 0.7, 0.1], [1, 0.3, 0, 0], [0, 0, 0, 0]]),
         ):
             matrix, load = positive_definite(rng, 4 * dim), rng.normal(size=(4, dim))
             matrix = (matrix + matrix.T) / 2
-            if law != "by_pair":
+            if law not in ("by_pair", "tied"):
                 friction = rng.uniform(1, 1.1, size=(4, 3)) * friction
             signorini.write(path("law.mtx"), matrix, load, 0.0, law=law, friction=friction, dim=dim)
             found = signorini.read(path("law.mtx"))
             self.assertEqual(found.law, signorini.Law[law.upper()])
-            self.same(friction, found.friction)
+            if friction is None:
+                self.assertIsNone(found.friction)
+            else:
+                self.same(friction, found.friction)
             self.assertIsNone(found.mu)
             self.assertIsNone(found.g)
             solved = signorini.solve(matrix, load, 0.0, law=law, friction=friction, dim=dim)

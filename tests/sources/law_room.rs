@@ -55,7 +55,7 @@ const FINITE: [&str; 2] = ["is_finite", "is_infinite"];
 const INFINITE: [&str; 2] = ["INFINITY", "NEG_INFINITY"];
 
 /// The variants of a friction law.
-const LAWS: [&str; 7] = [
+const LAWS: [&str; 8] = [
     "Frictionless",
     "Coulomb",
     "Tresca",
@@ -63,6 +63,7 @@ const LAWS: [&str; 7] = [
     "Orthotropic",
     "OrthotropicCollinear",
     "ByPair",
+    "Tied",
 ];
 
 /// Types whose variants only the law may choose by.
@@ -77,7 +78,7 @@ const CHOICES: [(&str, &[&str]); 4] = [
 /// there, and why.
 const ALLOWED: [(&str, &str, &str); 10] = [
     ("problem/friction_law.rs", "Law ::", "the arrays of a law: their number and range"),
-    ("problem/contact.rs", "gap == f64 :: NEG_INFINITY", "input: a gap is a number or +inf"),
+    ("problem/arguments.rs", "gap == f64 :: NEG_INFINITY", "input: a gap is a number or +inf"),
     ("problem/units.rs", "gap", "units: the size of a gap, and a gap beyond doubles"),
     ("problem/bounded_lcp.rs", "self . lower", "the bound of an LCP's variable"),
     ("problem/symmetric_matrix.rs", "lower", "an entry below the diagonal"),

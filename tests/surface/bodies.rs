@@ -237,7 +237,7 @@ fn supports(setting: &Setting, solids: &[Solid; 2]) -> Vec<usize> {
 }
 
 /// Terms of integrals of the functions of faces in the plane z = 0 over a window along the axes, each with its place.
-fn window_loads(
+pub fn window_loads(
     dim: usize,
     nodes: &[Point],
     faces: &[Vec<usize>],

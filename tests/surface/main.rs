@@ -20,4 +20,5 @@ mod quadrilaterals;
 mod reach;
 mod rows;
 mod symmetry;
+mod ties;
 mod true_shapes;

@@ -44,7 +44,7 @@ def solve(K, f, gap, mu=None, *, g=None, law=None, friction=None, slip0=None, di
     law, friction: another law, a member of Law or its name in lower case, and its three numbers for
     each pair, (P, 3), or (3,) for all: "cohesive", (mu, b, a); in 3D "orthotropic" and
     "orthotropic_collinear", (mu1, mu2, angle). "by_pair": a law for each pair, (P, 4), the Law of
-    the pair, its numbers, and zeros.
+    the pair, its numbers, and zeros. "tied", without friction: d is the gap and slip0, whatever F.
     slip0: reference slip, the tangential displacement at which a sticking pair stays, P (D - 1);
     length; None: zero. The last converged d[:, 1:] gives the incremental law.
     dim: D; None: 3 if f has the shape (P, 3), else 2.  start: d to start from, N, or None.

@@ -46,6 +46,7 @@ class Law(IntEnum):
     ORTHOTROPIC = 4, 3
     ORTHOTROPIC_COLLINEAR = 5, 3
     BY_PAIR = 6, 4
+    TIED = 7, 0
 
 
 class Method(IntEnum):

@@ -18,7 +18,7 @@ class ContactProblem(namedtuple("ContactProblem", "K f gap mu g slip0 dim remark
     """A contact problem of a file: the arguments of solve, and the remark of who wrote it.
 
     f: (P, D).  slip0: (P, D - 1).  mu and g: P, or None, as the law of friction is.  law and
-    friction: a Law and (P, 3) or (P, 4) of a law with several numbers, or None.
+    friction: a Law and (P, 3) or (P, 4) of a law with several numbers, Law.TIED and None, or None.
     """
 
     __slots__ = ()
@@ -70,5 +70,5 @@ def _taken(functions, handle):
         matrix, array("rhs", pairs, dim), array("gap", pairs),
         numbers if law == Law.COULOMB else None, numbers if law == Law.TRESCA else None,
         array("slip0", pairs, dim - 1), dim, remark,
-        law if several else None, numbers if several else None,
+        law if several or law == Law.TIED else None, numbers if several else None,
     )

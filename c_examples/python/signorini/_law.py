@@ -22,10 +22,10 @@ class Friction:
             raise ValueError("law is given, and mu or g: give the numbers of the law as friction")
         self.law = chosen("law", Law, law)
         self.name, self.values = "friction", friction
-        if self.law == Law.FRICTIONLESS and friction is not None:
-            raise ValueError("friction is given, and the law is frictionless: give another law")
-        if self.law != Law.FRICTIONLESS and friction is None:
-            name = self.law.name.lower()
+        name = self.law.name.lower()
+        if not self.law.numbers and friction is not None:
+            raise ValueError(f"friction is given, and the law is {name}: give another law")
+        if self.law.numbers and friction is None:
             raise TypeError(f"friction is None: give the numbers of the law {name}")
 
     def numbers(self, pairs, dim, cases=None):

@@ -213,7 +213,7 @@ impl Condensed {
         let contact = &Contact::new(&problem);
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance: whole.tolerance, ..Settings::default() };
-        let found = plan::auto(&Call::new(contact, &settings).from(&start), monitor)?;
+        let found = plan::solve(&Call::new(contact, &settings).from(&start), monitor)?;
         if let Some(stop) = found.status.stop() {
             return Err(stop.into());
         }

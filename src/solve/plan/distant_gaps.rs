@@ -7,6 +7,7 @@
 
 use super::auto;
 use super::table::{MethodRow, chosen};
+use super::ties::without_ties;
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
@@ -25,8 +26,11 @@ const FAR_OF_UNSOLVED: [f64; 2] = [1e3, 1e1];
 /// structures in which that goes on are solved with all of them.
 const ROUNDS: usize = 3;
 
-/// Solves by the method that is chosen, if it fits, or by the default.
+/// Solves by the method that is chosen, if it fits, or by the default; ties are taken out before.
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    if let Some(solution) = without_ties(call, solve, monitor)? {
+        return Ok(solution);
+    }
     let row = chosen(call.contact, call.settings.method)?;
     if let Some(solution) = without_obstacles(FAR, row, call, monitor)? {
         return Ok(solution);

@@ -178,8 +178,8 @@ fn in_words<R: Relation>(
     format!(
         "it moves {moving} of {} pairs, most of all pair {}, {direction}; the resultant of the loads along it is \
          {:.3e} (largest component 1), and contact leaves {:.3e} of it unbalanced",
-        contact.pairs().len(),
-        index(pair),
+        contact.problem().host_pairs(),
+        index(contact.problem().host_pair(pair)),
         dot(contact.load_with_tension(), motion),
         dot(unbalanced, motion),
     )

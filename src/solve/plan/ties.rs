@@ -1,0 +1,177 @@
+//! Ties are taken out of a problem before a method sees it.
+//!
+//! The displacements of tied pairs are known: `d_T` is their reference. What is left is a problem of the other pairs on a
+//! block of the matrix, which any method solves:
+//!
+//! ```text
+//! K_OO d_O = (f_O - K_OT d_T) + F_O
+//! ```
+//!
+//! The forces of the ties follow from equilibrium. The certificate measures the whole on the host's data. A motion of the
+//! others that proves that no equilibrium exists moves no tie, and is judged on the whole too.
+
+use crate::certificate::{Certificate, is_escape_of, measure};
+use crate::error::{Error, Message};
+use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
+use crate::monitor::Monitor;
+use crate::problem::{ContactProblem, FrictionLaw};
+use crate::settings::Settings;
+use crate::solve::newton::refine_to_tolerance;
+use crate::solve::part::PairData;
+use crate::solve::result::{Call, Candidate, Ending, Escape, Solution, Solve, Status};
+
+/// Most bytes of the matrix of the pairs that are not tied, of a problem with so many unknowns; 0 where none is tied.
+pub fn memory_of_ties(law: FrictionLaw<'_>, unknowns: usize) -> u64 {
+    if law.has_ties() { (unknowns * unknowns * size_of::<f64>()) as u64 } else { 0 }
+}
+
+/// Solves a problem with ties, `solve` the problem of the other pairs; `None`: no pair is tied.
+pub fn without_ties(
+    call: &Call<'_>,
+    solve: Solve,
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Solution>, Error> {
+    if call.contact.ties().next().is_none() {
+        return Ok(None);
+    }
+    let whole = call.contact.problem();
+    let others = Others::of(call.contact);
+    let settings = Settings { proof: false, ..call.settings.clone() };
+    let start = call.start.map(|start| others.gathered(start));
+    let found = {
+        let problem = others.problem(whole);
+        let contact = &Contact::new(&problem);
+        let start = start.as_deref().filter(|_| !contact.is_at_rest());
+        solve(&Call { contact, settings: &settings, start }, monitor)?
+    };
+    Ok(Some(others.on_whole(call, found, monitor)))
+}
+
+/// The pairs that are not tied, with what their problem consists of.
+struct Others {
+    /// Their components.
+    components: Vec<usize>,
+    /// Column-major.
+    matrix: Vec<f64>,
+    load: Vec<f64>,
+    own: PairData,
+    /// All displacements, those of these pairs zero.
+    held: Vec<f64>,
+    /// Their numbers for words.
+    host: Vec<usize>,
+}
+
+impl Others {
+    fn of(contact: &Contact<'_>) -> Self {
+        let (problem, dim) = (contact.problem(), contact.dim());
+        let laws = contact.pairs();
+        let pairs: Vec<usize> = (0..laws.len()).filter(|&pair| !laws[pair].is_tied()).collect();
+        let components: Vec<usize> =
+            pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
+        let mut held = vec![0.0; contact.unknowns()];
+        for pair in contact.ties() {
+            held[dim * pair..dim * (pair + 1)].copy_from_slice(&laws[pair].reference()[..dim]);
+        }
+        let lack = problem.force_of_parts(&held, &vec![0.0; held.len()]);
+        let block = |&j: &usize| {
+            let column = problem.column(j);
+            components.iter().map(|&i| column[i])
+        };
+        Others {
+            matrix: components.iter().flat_map(block).collect(),
+            load: components.iter().map(|&i| -lack[i]).collect(),
+            own: PairData::of(problem, &pairs),
+            host: pairs.iter().map(|&pair| problem.host_pair(pair)).collect(),
+            components,
+            held,
+        }
+    }
+
+    /// The problem of these pairs.
+    fn problem<'p>(&'p self, whole: &ContactProblem<'p>) -> ContactProblem<'p> {
+        let size = self.components.len();
+        let matrix = Matrix::new(size, &self.matrix, size.max(1));
+        let PairData { gap, parameters, slip } = &self.own;
+        let data = (gap.as_slice(), whole.law().with_values(parameters), slip.as_slice());
+        whole.on_part(matrix, &self.load, data).of_host(&self.host, whole.host_pairs())
+    }
+
+    /// The entries of these pairs.
+    fn gathered(&self, values: &[f64]) -> Vec<f64> {
+        self.components.iter().map(|&i| values[i]).collect()
+    }
+
+    /// Values of all components from those of these pairs, the others zero.
+    fn spread(&self, own: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.held.len()];
+        self.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
+        all
+    }
+
+    /// All displacements from those of these pairs.
+    fn displacements(&self, own: &[f64]) -> Vec<f64> {
+        let mut all = self.held.clone();
+        self.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
+        all
+    }
+
+    /// What was found for these pairs, as a result of the whole problem.
+    fn on_whole(&self, call: &Call<'_>, found: Solution, monitor: &mut Monitor<'_>) -> Solution {
+        let (contact, settings) = (call.contact, call.settings);
+        let (d, low) = (self.displacements(&found.d), self.spread(&found.d_low));
+        let force = contact.problem().force_of_parts(&d, &low);
+        let ending = found.status.stop().map_or(Ending::Done, Ending::Stopped);
+        let at = Candidate::of_displacements(contact, d.clone(), ending).moved_to(d, low, force);
+        // Where ties move bodies far, the loads of the other pairs are rounded beside their forces.
+        let at = refine_to_tolerance(call, at, monitor);
+        let certificate = at.certificate(contact).clone().with_rounding(settings.tolerance);
+        let holds = certificate.holds(settings.tolerance);
+        let (status, message) = match found.status {
+            Status::NoEquilibrium => (found.status, found.message),
+            Status::Solved => told(&at.ending, settings, &certificate),
+            _ if holds => told(&Ending::Done, settings, &certificate),
+            _ => (found.status, found.message),
+        };
+        let mut solution = Solution {
+            status,
+            message,
+            d: at.d().to_vec(),
+            d_low: at.low_part(),
+            certificate,
+            recession: found.recession.map(|motion| self.spread(&motion)),
+            escape: found.escape.map(|Escape { motion, unbalanced }| Escape {
+                motion: self.spread(&motion),
+                unbalanced: self.spread(&unbalanced),
+            }),
+            errors: at.errors,
+            definite: Vec::new(),
+            ..found
+        };
+        solution.change_second(settings.tolerance, |second| {
+            second.d = self.displacements(&second.d);
+            second.d_low = self.spread(&second.d_low);
+            second.certificate = measure(contact, (&second.d, &second.d_low), &[]);
+        });
+        self.judge_proof(call, solution)
+    }
+
+    /// The solution without a proof that is none on the whole.
+    fn judge_proof(&self, call: &Call<'_>, mut solution: Solution) -> Solution {
+        let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
+        if solution.status == Status::NoEquilibrium
+            && !solution.recession.as_ref().is_some_and(is_proof)
+        {
+            let motion = solution.recession.take().unwrap_or_default();
+            (solution.status, solution.message) =
+                told(&Ending::Recession(motion), call.settings, &solution.certificate);
+        }
+        solution
+    }
+}
+
+/// Status and sentence of an ending.
+fn told(ending: &Ending, settings: &Settings, certificate: &Certificate) -> (Status, Message) {
+    let (status, sentence) = ending.status(settings, certificate);
+    (status, sentence.into())
+}
