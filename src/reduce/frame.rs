@@ -53,12 +53,6 @@ impl Frame {
         self.directions[component]
     }
 
-    /// `true` if its directions are those of the axes but for rounding.
-    pub(super) fn stands_along_axes(&self) -> bool {
-        let axes = (0..self.dim).map(vector3::axis);
-        axes.into_iter().all(|axis| self.component_along(&axis).is_some())
-    }
-
     /// The component of `d` along a direction.
     fn component_along(&self, direction: &Vector3) -> Option<usize> {
         let sine = |own: &Vector3| (own - own.dot(direction) * direction).norm();

@@ -100,9 +100,6 @@ static void pairs(void)
     REFUSED("weights sum to 2", -4, WORDS("pair 0: its weights sum to 2, not to 1"),
             block.pairs.master_start = block.master_start, block.pairs.masters = block.masters,
             block.pairs.weights = block.weights, each_pair(block.weights, 2));
-    REFUSED("a slave fixed along all axes", -4,
-            WORDS("pair 0: its nodes are fixed along every axis", "leave the pair out"),
-            block.fixed[block.n_fixed++] = 1, block.normals[0] = 0.5);
     REFUSED("normals not set", -4, WORDS("pair 0: its normal is zero"), block.normals[1] = 0);
     REFUSED("no pairs, and a body that floats", -1,
             WORDS("a motion remains that no support and no pair holds",

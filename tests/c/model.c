@@ -219,7 +219,7 @@ static void bad_pairs(void)
               in.slaves[1] = 0);
     BAD_PAIRS("master out of range", "degree of freedom 6", in.masters[1] = 6);
     BAD_PAIRS("master negative", "masters[1] is -1", in.masters[1] = -1);
-    BAD_PAIRS("master that is its own slave", "pair 0: its nodes are fixed along every axis, or",
+    BAD_PAIRS("master that is its own slave", "pair 0: its weights cancel, so that no node moves it",
               in.masters[0] = 0, in.masters[1] = 1);
     BAD_PAIRS("master begins do not begin at 0", "begin", in.master_start[0] = 1);
     BAD_PAIRS("master begins are negative", "master_start[0]", in.master_start[0] = -1);

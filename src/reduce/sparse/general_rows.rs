@@ -72,8 +72,7 @@ pub(super) fn general_rows(
     let solved = solve(&rows.equations, places.len(), &may_choose);
     let mut supports = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
-        let may_rest = rows.have_own_slaves && frame.stands_along_axes();
-        let held = HeldPair::new(rows, &solved, (pair, may_rest))?;
+        let held = HeldPair::new(rows, &solved, pair)?;
         supports.extend(held.map(|held| held.along(frame, may_turn, places)).unwrap_or_default());
     }
     let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
@@ -98,12 +97,9 @@ impl<'s> HeldPair<'s> {
     /// `None` if one of its equations follows from those of other pairs.
     ///
     /// # Errors
-    /// A pair that supports fix wholly, as general rows by mistake may be, unless it `may_rest`.
-    fn new(
-        rows: &Rows,
-        solved: &'s Solved,
-        (pair, may_rest): (usize, bool),
-    ) -> Result<Option<Self>, Error> {
+    /// A pair whose weights cancel along every axis. One whose nodes are fixed along all of them rests, as where a surface
+    /// ends at a wall.
+    fn new(rows: &Rows, solved: &'s Solved, pair: usize) -> Result<Option<Self>, Error> {
         let dim = rows.dim;
         let of_axis = |axis| Some((axis, dependent(solved, pair, dim, axis)?));
         let of_axes: Vec<_> = (0..dim).filter_map(of_axis).collect();
@@ -112,7 +108,8 @@ impl<'s> HeldPair<'s> {
         if !sides.all(|(equation, _)| own.contains(equation)) {
             return Ok(None);
         }
-        if of_axes.len() == dim && !may_rest {
+        let cancels = |(_, expression): &(usize, &Expression)| expression.unknowns.is_empty();
+        if of_axes.len() == dim && of_axes.iter().all(cancels) {
             return Err(Error::invalid(Argument::Pairs, messages::moves_nothing(pair)));
         }
         Ok(Some(HeldPair { pair, dim, of_axes }))

@@ -161,10 +161,10 @@ pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
     )
 }
 
-/// All nodes of a pair are fixed along all axes, or its weights cancel.
+/// The weights of a pair cancel along all axes.
 pub(super) fn moves_nothing(pair: usize) -> String {
     format!(
-        "pair {}: its nodes are fixed along every axis, or its weights cancel: leave the pair out",
+        "pair {}: its weights cancel, so that no node moves it: leave the pair out",
         index(pair)
     )
 }
