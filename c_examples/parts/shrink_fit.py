@@ -55,7 +55,7 @@ def part(shaft=24, hub=32):
         radius = np.hypot(at[:, 0], at[:, 1])
         factor = 1 + INTERFERENCE * (radius - INNER) / (RADIUS - INNER) / radius
         return at * np.column_stack([factor, factor, np.ones(len(at))])
-    return Part(mesh, {"fit": zone}, sorted(fixed), steps, {"shaft": swollen})
+    return Part(mesh, {"fit": zone}, sorted(fixed), steps, shapes={"shaft": swollen})
 
 
 def main():
