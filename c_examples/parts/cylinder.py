@@ -48,7 +48,7 @@ def part(cell=0.75):
     low, circle = 0.5 * RADIUS, on_circle(RADIUS, (0, RADIUS))
     zone = Zone(("cylinder", lambda at: circle(at) & (at[:, 1] < low)),
                 ("block", lambda at: (abs(at[:, 1]) < 1e-6) & (at[:, 0] < low)), MU)
-    return Part(mesh, {"foot": zone}, sorted(fixed), [(load, {})])
+    return Part(mesh, {"foot": zone}, sorted(fixed), [(load, {})], symmetry=((0, 0.0),))
 
 
 def main():

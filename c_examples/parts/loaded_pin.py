@@ -62,7 +62,7 @@ def part(around=12, across=8):
     load = np.zeros(3 * len(mesh.at))
     load[dofs(centre, 0)] = FORCE / len(centre)
     zone = Zone(("pin", on_circle(RADIUS)), ("sheet", on_circle(RADIUS)), MU, gap=0.0)
-    return Part(mesh, {"pin in sheet": zone}, sorted(fixed), [(load, {})])
+    return Part(mesh, {"pin in sheet": zone}, sorted(fixed), [(load, {})], symmetry=((1, 0.0),))
 
 
 def main():

@@ -42,7 +42,7 @@ def part(loads=(200.0, 1000.0, 4000.0), around=16, mu=0.0):
     zone = Zone(("pin", on_circle(RADIUS)), ("sheet", on_circle(RADIUS)), mu,
                 gap=lambda at: CLEARANCE * (1 - at[:, 0] / RADIUS))
     shapes = {"pin": lambda at: at * [1 - CLEARANCE / RADIUS, 1 - CLEARANCE / RADIUS, 1] + [CLEARANCE, 0, 0]}
-    return Part(mesh, {"pin in sheet": zone}, sorted(fixed), steps, shapes=shapes)
+    return Part(mesh, {"pin in sheet": zone}, sorted(fixed), steps, shapes=shapes, symmetry=((1, 0.0),))
 
 
 def persson(force, clearance=CLEARANCE, young=YOUNG, poisson=0.3):

@@ -4,6 +4,7 @@
 """
 
 import unittest
+import warnings
 
 import numpy as np
 
@@ -65,8 +66,6 @@ REFUSED = (
      lambda: Model.sparse((np.ones(3), [0, 1, 1], [0, 2, 3]), [[0, 1]], DOWN, triangle="full")),
     ("tol", TypeError, ["tol is not a setting", "tolerance"],
      lambda: solve(K, LOAD, 0, tol=1e-9)),
-    ("a slave fixed along all axes", signorini.SignoriniError, ["leave the pair out"],
-     lambda: Model.sparse(SPRINGS, SLAVES, [1, -1], fixed=[0, 1])),
     ("an unused dof", signorini.SignoriniError, ["nothing resists degree of freedom 5", "fixed"],
      lambda: Model.sparse((np.ones(5), np.arange(5), [0, 1, 2, 3, 4, 5, 5]), SLAVES, DOWN)),
     ("coordinates transposed", ValueError, ["coordinates has the shape", "shape (nodes, dim)"],
@@ -109,6 +108,23 @@ class Mistakes(unittest.TestCase):
                 self.assertEqual(result.status, signorini.Status.SOLVED)
                 self.assertEqual(result.report.remarks, remark)
             print(f"| {mistake} | Python | {result.status.name} | {result.report.remarks!r} |")
+
+    def test_a_plane_of_symmetry_that_is_not_named(self):
+        springs, left = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6])
+
+        def warnings_of(fixed, **pairing):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                contact = signorini.pair_surfaces(SQUARE, [[4, 5]], [[3, 2]], **pairing)
+                Model.from_surfaces(springs, {"cut": contact}, fixed=fixed)
+            return [str(warning.message) for warning in caught]
+        sentence = warnings_of(left)[0]
+        print(f"| a plane of symmetry that is not named | Python | warning | {sentence} |")
+        for word in ("zone 'cut'", "across the plane x = 0", "symmetry=[(0, 0)]"):
+            self.assertIn(word, sentence)
+        self.assertEqual(warnings_of(left, symmetry=[(0, 0.0)]), [])
+        self.assertEqual(warnings_of(np.concatenate([left, left + 1])), [])  # clamped
+        self.assertEqual(warnings_of([8]), [])  # the slave alone
 
 
 if __name__ == "__main__":

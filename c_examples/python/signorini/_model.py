@@ -18,6 +18,7 @@ from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
+from ._symmetry import warn_of_planes
 from ._text import path_bytes, remark_bytes
 from ._zones import Zones
 
@@ -199,6 +200,8 @@ class Model:
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
+        for name, one in (contact if zones else {None: contact}).items():
+            warn_of_planes(one, fixed, name)
         rows = zones.rows(equations) if zones else contact.with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)

@@ -153,6 +153,7 @@ class SurfacePairs:
         call = Call(self._functions, {"progress": progress})
         settings.progress = call.settings.progress
         axes, places = _planes(symmetry)
+        self.symmetry_axes = axes.tolist()
         settings.symmetry_planes = len(axes)
         settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
         # Entries of a displacement vector that has all nodes.
