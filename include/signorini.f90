@@ -21,7 +21,7 @@
 !                      %new_flexibility_sparse, %new_sparse or %new_sparse_rows, %new_surfaces,
 !                      %new_operator, then %solve, %certify, %prove, %recover, %nodal_forces, %frames,
 !                      %condensed_load, %stiffness, %view, at the end %release
-!     contact_equations  equations between degrees of freedom, for a model of a sparse matrix
+!     contact_equations  a type: equations between degrees of freedom, for a model of a sparse matrix
 !     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
 !                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
 !                      %write, at the end %release
@@ -726,6 +726,14 @@ module signorini
         procedure :: release => model_release
     end type
 
+    ! Equations between degrees of freedom, u(dependent(i)) = sum of coefficients(k) * u(dofs(k)), k from start(i) to
+    ! start(i + 1) - 1. signorini_equations in signorini.h says what they may be:
+    !     contact_equations(dependent, start, dofs, coefficients)
+    type :: contact_equations
+        integer, allocatable :: dependent(:), start(:), dofs(:)
+        real(c_double), allocatable :: coefficients(:)
+    end type
+
     ! Contact pairs from surfaces. Copies of it are the same pairs: release it once.
     !     dim, pairs, nodes      dimension, number of pairs, number of nodes of the mesh
     !     data                   what was found, with n_folded, on_symmetry and so on, as signorini_surface.h
@@ -1117,9 +1125,9 @@ contains
     ! masters(dim, m): degrees of freedom of all master nodes, weights(m), master_start(pairs + 1):
     ! those of pair i are master_start(i) to master_start(i + 1) - 1. Without masters the obstacle
     ! is rigid. order: the order of elimination, each degree of freedom once; absent: chosen. settings:
-    ! progress, user, time_limit, memory_limit, full_space and threads count. equations: what contact_equations
-    ! returns. If the library finds something wrong in the matrix, info is the position of values, if in the
-    ! pairs or equations, that of slaves; message tells the array.
+    ! progress, user, time_limit, memory_limit, full_space and threads count. If the library finds something
+    ! wrong in the matrix, info is the position of values, if in the pairs or equations, that of slaves; message
+    ! tells the array.
     subroutine model_new_sparse(self, col_start, row, values, triangle, slaves, normals, info, fixed, &
             master_start, masters, weights, tangents, message, order, settings, equations)
         class(contact_model), intent(inout) :: self
@@ -1134,7 +1142,7 @@ contains
         character(len=*), intent(out), optional :: message
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
-        type(signorini_equations), intent(in), optional :: equations
+        type(contact_equations), intent(in), optional :: equations
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: of_slaves(:), begins(:), of_masters(:)
         type(refusal) :: wrong
@@ -1145,6 +1153,7 @@ contains
         if (present(tangents)) call check_pairs(wrong, 12, 'tangents', shape(tangents), shape(slaves))
         if (present(order)) call check_size(wrong, 14, 'order', size(order), size(col_start) - 1, &
             'as many as the matrix has columns')
+        if (present(equations)) call check_equations(wrong, 16, equations)
         if (refused(wrong, info, message)) return
         of_slaves = int([slaves], c_int64_t)
         if (size(slaves) > 0) pairs%slaves = c_loc(of_slaves)
@@ -1158,26 +1167,6 @@ contains
         call make_sparse(self, col_start, row, values, triangle, pairs, normals, tangents, fixed, &
             info, message, [3, 8, 8, 5, 15], order, settings, equations)
     end subroutine
-
-    ! Equations between degrees of freedom, u(dependent(i)) = sum of coefficients(k) * u(dofs(k)), k from start(i) to
-    ! start(i + 1) - 1, for new_sparse, new_sparse_rows and new_surfaces. signorini_equations in signorini.h says what
-    ! they may be. The arrays must stay until the model is made.
-    function contact_equations(dependent, start, dofs, coefficients) result(equations)
-        integer(c_int64_t), intent(in), contiguous, target :: dependent(:), start(:), dofs(:)
-        real(c_double), intent(in), contiguous, target :: coefficients(:)
-        type(signorini_equations) :: equations
-        equations%count = size(dependent)
-        if (size(dependent) == 0) return
-        ! The library refuses a number below zero.
-        if (size(start) /= size(dependent) + 1 .or. size(dofs) /= size(coefficients)) equations%count = -1
-        if (equations%count > 0) then
-            if (start(size(start)) /= size(dofs) + 1) equations%count = -1
-        end if
-        equations%dependent = c_loc(dependent)
-        equations%start = c_loc(start)
-        if (size(dofs) > 0) equations%dofs = c_loc(dofs)
-        equations%coefficients = address(coefficients)
-    end function
 
     ! new_sparse with general rows: each pair is a list of nodes with signed weights.
     ! row_nodes(dim, m): degrees of freedom of all nodes, row_weights(m): positive on the side whose
@@ -1196,7 +1185,7 @@ contains
         integer, intent(in), optional :: fixed(:)
         real(c_double), intent(in), contiguous, target, optional :: tangents(:, :)
         character(len=*), intent(out), optional :: message
-        type(signorini_equations), intent(in), optional :: equations
+        type(contact_equations), intent(in), optional :: equations
         type(signorini_pairs) :: pairs
         integer(c_int64_t), allocatable, target :: begins(:), of_nodes(:)
         type(refusal) :: wrong
@@ -1208,6 +1197,7 @@ contains
         call check_starts(wrong, 5, 'row_start', row_start, size(row_weights), 'row_weights has entries')
         if (present(tangents)) call check_shape(wrong, 11, 'tangents', shape(tangents), shape(normals), &
             '(dim, pairs), as normals')
+        if (present(equations)) call check_equations(wrong, 13, equations)
         if (refused(wrong, info, message)) return
         begins = int(row_start, c_int64_t)
         of_nodes = int([row_nodes], c_int64_t)
@@ -1234,7 +1224,7 @@ contains
         integer, intent(in) :: positions(5)
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
-        type(signorini_equations), intent(in), optional :: equations
+        type(contact_equations), intent(in), optional :: equations
         pairs%dim = number(size(normals, 1))
         pairs%count = size(normals, 2)
         pairs%normals = address2(normals)
@@ -1256,12 +1246,13 @@ contains
         integer, intent(out) :: info
         integer, intent(in), optional :: fixed(:)
         character(len=*), intent(out), optional :: message
-        type(signorini_equations), intent(in), optional :: equations
+        type(contact_equations), intent(in), optional :: equations
         type(signorini_pairs), pointer :: pairs
         type(refusal) :: wrong
         call self%release()
         call check_sparse(wrong, 1, col_start, row, values, triangle)
         call check_surfaces(wrong, surfaces, 5)
+        if (present(equations)) call check_equations(wrong, 9, equations)
         if (refused(wrong, info, message)) return
         call c_f_pointer(surfaces%data%rows, pairs)
         call finish_sparse(self, col_start, row, values, triangle, pairs, fixed, info, message, &
@@ -1282,12 +1273,13 @@ contains
         integer, intent(in) :: positions(5)
         integer, intent(in), contiguous, target, optional :: order(:)
         type(signorini_settings), intent(in), optional :: settings
-        type(signorini_equations), intent(in), optional :: equations
+        type(contact_equations), intent(in), optional :: equations
         type(signorini_settings), target :: chosen
         type(signorini_equations), target :: given
         type(signorini_pairs) :: complete
         type(signorini_sparse) :: matrix
-        integer(c_int64_t), allocatable, target :: held(:)
+        integer(c_int64_t), allocatable, target :: held(:), dependent(:), start(:), dofs(:)
+        real(c_double), allocatable, target :: coefficients(:)
         integer(c_int64_t) :: n_fixed
         matrix = sparse_matrix(col_start, row, values, triangle)
         if (present(order)) then
@@ -1296,7 +1288,15 @@ contains
         if (present(settings)) chosen = settings
         complete = pairs
         if (present(equations)) then
-            given = equations
+            ! An entry more: an address may be that of no array without entries.
+            allocate (dependent(size(equations%dependent) + 1), start(size(equations%start)), &
+                dofs(size(equations%dofs) + 1), coefficients(size(equations%dofs) + 1))
+            dependent(:) = int([equations%dependent, 0], c_int64_t)
+            start(:) = int(equations%start, c_int64_t)
+            dofs(:) = int([equations%dofs, 0], c_int64_t)
+            coefficients(:) = [equations%coefficients, 0._c_double]
+            given = signorini_equations(count=size(equations%dependent), dependent=c_loc(dependent), &
+                start=c_loc(start), dofs=c_loc(dofs), coefficients=c_loc(coefficients))
             complete%equations = c_loc(given)
         end if
         n_fixed = 0
@@ -2241,6 +2241,23 @@ contains
             ', it must be 1: indices count from 1')
         if (starts(n) /= count + 1) call refuse(wrong, position, name // '(' // text(n) // ') is ' // &
             text(starts(n)) // ', it must be ' // text(count + 1) // ': one more than ' // last)
+    end subroutine
+
+    subroutine check_equations(wrong, position, equations)
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position
+        type(contact_equations), intent(in) :: equations
+        logical :: complete
+        complete = allocated(equations%dependent) .and. allocated(equations%start) .and. &
+            allocated(equations%dofs) .and. allocated(equations%coefficients)
+        if (.not. complete) call refuse(wrong, position, 'equations: an array is not allocated')
+        if (wrong%position /= 0) return
+        call check_size(wrong, position, 'equations%start', size(equations%start), &
+            size(equations%dependent) + 1, 'one more than dependent')
+        call check_size(wrong, position, 'equations%coefficients', size(equations%coefficients), &
+            size(equations%dofs), 'as many as dofs')
+        call check_starts(wrong, position, 'equations%start', equations%start, size(equations%dofs), &
+            'dofs has entries')
     end subroutine
 
     ! master_start, masters and weights from a position on: all or none.

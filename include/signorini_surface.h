@@ -429,8 +429,8 @@ struct signorini_field {
  *
  * @param path      name of the file, which is replaced if it exists
  * @param mesh      the mesh; with zones the one whose nodes were paired
- * @param u         displacements of all degrees of freedom, as signorini_model_recover gives them;
- *                  without zones dim for each node; NULL: none
+ * @param u         displacements of all degrees of freedom, as signorini_model_recover gives them,
+ *                  up to the largest of node_dofs; without zones dim for each node; NULL: none
  * @param n_zones   number of contact zones, 0 allowed
  * @param zones     the zones, whose pairs number degrees of freedom alike
  * @param n_fields  number of fields of your own, 0 allowed

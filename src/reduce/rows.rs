@@ -18,11 +18,7 @@ pub(super) struct Rows {
 impl Rows {
     /// Takes the equations; `slaves` are the degrees of freedom of slaves, `dim` for each pair, or none.
     pub(super) fn new(dim: usize, equations: Vec<Terms>, slaves: &[usize]) -> Self {
-        let mut uses: HashMap<usize, usize> = slaves.iter().map(|dof| (*dof, 0)).collect();
-        for (dof, _) in equations.iter().flatten() {
-            uses.entry(*dof).and_modify(|uses| *uses += 1);
-        }
-        let have_own_slaves = !slaves.is_empty() && uses.values().all(|uses| *uses == 1);
+        let have_own_slaves = !slaves.is_empty() && stand_once(slaves, &equations);
         Rows { dim, equations, have_own_slaves }
     }
 
@@ -30,4 +26,15 @@ impl Rows {
     pub(super) fn of_pair(&self, pair: usize) -> &[Terms] {
         &self.equations[self.dim * pair..self.dim * (pair + 1)]
     }
+}
+
+/// `true` if each of some degrees of freedom stands in one equation, once.
+fn stand_once(dofs: &[usize], equations: &[Terms]) -> bool {
+    let mut uses: HashMap<usize, usize> = dofs.iter().map(|dof| (*dof, 0)).collect();
+    for (dof, _) in equations.iter().flatten() {
+        if let Some(uses) = uses.get_mut(dof) {
+            *uses += 1;
+        }
+    }
+    uses.values().all(|uses| *uses == 1)
 }

@@ -466,6 +466,40 @@ static int32_t dependent_rows(struct world *w)
     return status;
 }
 
+/* A rod on two pairs by degree of freedom, whose ends follow from its middle by a chain of equations. */
+static int32_t equations(struct world *w)
+{
+    enum { CHAIN = 50 };
+    static const int64_t starts[] = {0, 1, 2, 3, 4}, rows[] = {0, 1, 2, 3}, pair_start[] = {0, 2, 4};
+    static const double springs[] = {2, 2, 2, 2}, load[] = {1, -1, 0, 0}, gap[] = {0, 0};
+    static const double down[] = {0, -1, 0, -1}, vectors[] = {1, 0, 0, 1, 1, 0, 0, 1};
+    const int64_t ends[] = {0, 100 + CHAIN - 1, 2, 3};
+    int64_t dependent[CHAIN], start[CHAIN + 1], dofs[CHAIN];
+    double ones[CHAIN];
+    for (int64_t i = 0; i < CHAIN; i++) {
+        dependent[i] = 100 + i;
+        start[i] = i;
+        dofs[i] = i ? 99 + i : 1;
+        ones[i] = 1;
+    }
+    start[CHAIN] = CHAIN;
+    const signorini_equations chain = {.struct_size = sizeof chain, .count = CHAIN, .dependent = dependent,
+                                       .start = start, .dofs = dofs, .coefficients = ones};
+    const signorini_sparse K = {.struct_size = sizeof K, .index_bytes = 8,
+                                .triangle = SIGNORINI_TRIANGLE_LOWER, .size = 4, .nnz = 4,
+                                .col_start = starts, .row = rows, .values = springs};
+    const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = 2, .normals = down,
+                                   .row_start = pair_start, .row_nodes = ends, .row_vectors = vectors,
+                                   .equations = &chain};
+    signorini_model *model = NULL;
+    int32_t status = signorini_model_new_sparse(&K, 0, NULL, &pairs, NULL, &model);
+    if (!status)
+        status = signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, w->mu, NULL,
+                                       NULL, w->d, w->F, NULL, NULL, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
 /* Products with the matrix of the chain, and with the inverse of its diagonal. */
 static int32_t product(void *user, const double *x, double *y)
 {
@@ -601,6 +635,7 @@ static const struct scenario scenarios[] = {
     {"sparse model, many cases", sparse_many, 0, 0},
     {"full space, two cases", full_space_cases, 0, 0},
     {"dependent rows", dependent_rows, 0, 0},
+    {"equations", equations, 0, 0},
     {"operator", operator_model, 0, 0},
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},
     {"node-to-surface, .vtu", node_surfaces, 0, 0},

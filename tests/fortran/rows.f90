@@ -1,4 +1,5 @@
-! General rows: lists of nodes with signed weights, by the module and by Fortran 77.
+! General rows: lists of nodes with signed weights, by the module and by Fortran 77; equations between degrees of
+! freedom.
 !
 ! Node A (degrees of freedom 1, 2) and node B (3, 4), each on springs of stiffness 2.
 program rows
@@ -22,6 +23,29 @@ program rows
     call model%stiffness(k, info)
     call expect('stiffness', info == 0 .and. all(abs(k - reshape([1, 0, 0, 1], [2, 2])) < 1e-14_dp))
     call model%release()
+
+    ! A by numbers beyond the matrix, in axes that are turned by a quarter: its x is -u(2), its y is u(1).
+    two = reshape([7, 8, 3, 4], [2, 2])
+    call model%new_sparse_rows(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, [1, 3], two, &
+        [1._dp, -1._dp], reshape([0._dp, -1._dp], [2, 1]), info, message=message, equations=quarter())
+    call expect('equations', info == 0 .and. message == '')
+    ! n = (0, -1) and t = (1, 0): the force (1, 3) on A.
+    call model%nodal_forces([-3._dp, 1._dp], nodal, info)
+    call expect('their forces', info == 0 .and. all(abs(nodal - [3._dp, -1._dp, -1._dp, -3._dp]) < 1e-14_dp))
+    call model%release()
+    call model%new_sparse(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, reshape([7, 8], [2, 1]), &
+        reshape([0._dp, -1._dp], [2, 1]), info, message=message, equations=quarter())
+    call expect('equations of a slave', info == 0 .and. message == '')
+    call model%release()
+    call model%new_sparse(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, reshape([7, 8], [2, 1]), &
+        reshape([0._dp, -1._dp], [2, 1]), info, message=message, &
+        equations=contact_equations([7, 8], [1, 2, 3], [2, 8], [-1._dp, 1._dp]))
+    call expect('a circle', info == -5 .and. index(message, 'equation 2: its dependent degree of freedom') == 1 &
+        .and. index(message, 'by way of 8') > 0)
+    call model%new_sparse(starts, places, springs, SIGNORINI_TRIANGLE_LOWER, reshape([7, 8], [2, 1]), &
+        reshape([0._dp, -1._dp], [2, 1]), info, message=message, &
+        equations=contact_equations([7, 8], [1, 3], [2, 1], [-1._dp, 1._dp]))
+    call expect('starts of equations', info == -16 .and. index(message, 'equations%start has 2 entries') == 1)
 
     ! A on the floor and at a wall, pressed by (1, -1): the smallest forces share the load.
     two = reshape([1, 2, 1, 2], [2, 2])
@@ -101,6 +125,11 @@ program rows
     if (failed /= 0) stop 1
     print '(a)', 'rows: as pairs, and in a corner'
 contains
+    function quarter()
+        type(contact_equations) :: quarter
+        quarter = contact_equations([8, 7], [1, 2, 3], [1, 2], [1._dp, -1._dp])
+    end function
+
     subroutine expect(what, holds)
         character(len=*), intent(in) :: what
         logical, intent(in) :: holds

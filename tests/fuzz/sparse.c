@@ -107,6 +107,10 @@ static signorini_pairs *some_pairs(int64_t n, int base, int32_t dim, int64_t cou
             pairs->row_start = start;
             pairs->row_nodes = of;
             pairs->row_weights = weights;
+            if (rarely(3)) {
+                pairs->row_weights = NULL;
+                pairs->row_vectors = numbers(dim * all);
+            }
         } else {
             pairs->master_start = start;
             pairs->masters = of;

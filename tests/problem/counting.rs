@@ -1,7 +1,7 @@
 //! Sentences count their indices from 0 with square brackets, and from 1 with round brackets for
 //! Fortran; other numbers are the same in both.
 
-use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
+use signorini::reduce::{ContactPairs, Equations, Indices, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, Error, FrictionLaw, Lcp, LoadCase, Message, Model, Monitor,
     Settings, Solution, Status, solve,
@@ -209,6 +209,54 @@ fn of_supports_and_pairs() {
     );
     // The number of masters is no index, nor is the sum of weights.
     wrong(|h| h.master_start = [0, 0, 1], "have 1 masters", "have 1 masters");
+}
+
+#[test]
+fn of_equations() {
+    let one = [Indices::Wide(&[0, 1, 2, 3, 4]), Indices::Wide(&[0, 1, 2, 3])];
+    let matrix = SparseMatrix {
+        size: 4,
+        col_start: one[0],
+        row: one[1],
+        values: &[1.0; 4],
+        index_base: 0,
+        triangle: Triangle::Lower,
+    };
+    let wrong = |dependent: [usize; 2], dofs: [usize; 2], zero: &str, one: &str| {
+        let equations = Equations {
+            dependent: &dependent,
+            start: &[0, 1, 2],
+            dofs: &dofs,
+            coefficients: &[1.0, 1.0],
+        };
+        let pairs = ContactPairs {
+            dim: 2,
+            count: 1,
+            slaves: &[0, 8],
+            master_start: &[0, 0],
+            normals: &[0.0, -1.0],
+            equations,
+            ..ContactPairs::default()
+        };
+        refused(Model::sparse(&matrix, &[2], &pairs), zero, one);
+    };
+    wrong(
+        [8, 8],
+        [1, 1],
+        "equation 1: it gives degree of freedom 8,",
+        "equation 2: it gives degree of freedom 9,",
+    );
+    wrong([8, 8], [1, 1], "as equation 0 does", "as equation 1 does");
+    wrong([8, 9], [9, 8], "equation 0: its dependent", "equation 1: its dependent");
+    wrong([8, 9], [9, 8], "by way of 8, 9:", "by way of 9, 10:");
+    wrong([8, 9], [1, 7], "there is no degree of freedom 7,", "there is no degree of freedom 8,");
+    wrong([8, 2], [1, 1], "fixed: degree of freedom 2 is", "fixed: degree of freedom 3 is");
+    wrong(
+        [7, 9],
+        [1, 1],
+        "pair 0: there is no degree of freedom 8,",
+        "pair 1: there is no degree of freedom 9,",
+    );
 }
 
 /// Node 1 is held by nothing along (1, 1) and pulled away from its obstacle.
