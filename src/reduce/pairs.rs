@@ -4,7 +4,7 @@ use super::equations::{Dependents, Equations};
 use super::frame::Frame;
 use super::rows::Rows;
 use crate::error::{Argument, Error, index};
-use crate::linalg::row_elimination::Terms;
+use crate::linalg::row_elimination::{Terms, gathered};
 use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::problem::checked_dim;
 
@@ -94,8 +94,8 @@ impl ContactPairs<'_> {
     ///
     /// # Errors
     /// The first array of a wrong length, start of masters that is out of order, degree of freedom
-    /// that does not exist or stands for two axes of a slave, sum of weights that cannot be, and vector that is not
-    /// finite.
+    /// that does not exist or stands for two axes of a slave, sum of weights that cannot be, vector that is not finite,
+    /// and pair whose weights cancel.
     pub(super) fn rows(&self, size: usize, dependents: &Dependents) -> Result<Rows, Error> {
         self.check_lengths()?;
         self.check_master_start()?;
@@ -104,6 +104,12 @@ impl ContactPairs<'_> {
             match self.vectors {
                 Some(vectors) => self.check_vectors(pair, vectors)?,
                 None => self.check_weights(pair)?,
+            }
+            if (0..self.dim).all(|axis| gathered(self.terms(pair, axis)).is_empty()) {
+                let pair = index(pair);
+                return refuse(format!(
+                    "pair {pair}: its weights cancel, so that no node moves it: leave the pair out"
+                ));
             }
         }
         let places = (0..self.count).flat_map(|pair| (0..self.dim).map(move |axis| (pair, axis)));

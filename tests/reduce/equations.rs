@@ -113,6 +113,33 @@ fn solutions_balance_in_the_whole_structure() {
     assert!(solutions > 40, "{solutions} with contact");
 }
 
+/// A pair whose sides move alike by equations, and one of what equations hold, move nothing and carry nothing; the other
+/// one has what it has alone.
+#[test]
+fn pairs_that_equations_hold_rest() {
+    let along = || vec![(0, vec![1.0, 0.0]), (1, vec![0.0, 1.0])];
+    let alike = vec![(0, vec![1.0, 0.0]), (4, vec![-1.0, 0.0])];
+    let equations = vec![(4, vec![(0, 1.0)]), (5, vec![])];
+    let rows = vec![alike, along(), vec![(5, vec![0.0, 1.0])]];
+    let model = Small { rows, equations, fixed: vec![] }.model().unwrap();
+    let alone = Small { rows: vec![along()], equations: vec![], fixed: vec![] }.model().unwrap();
+    assert!(model.dependent_pairs().is_empty());
+    let load = [1.0, -4.0];
+    let solution = solved(&model, &load, &[0.0; 3], 0.5);
+    let expected = solved(&alone, &load, &[0.0], 0.5);
+    close(&solution.d[2..4], &expected.d, 1e-12, "d");
+    let force = &solution.certificate.force;
+    close(&force[2..4], &expected.certificate.force, 1e-12, "F");
+    let rest = [&solution.d[..2], &solution.d[4..], &force[..2], &force[4..]].concat();
+    assert_eq!(rest, [0.0; 8]);
+    close(
+        &model.recover(Some(&load), None, &solution.d).unwrap(),
+        &alone.recover(Some(&load), None, &expected.d).unwrap(),
+        1e-12,
+        "u",
+    );
+}
+
 /// A chain of a thousand equations in any order is one of its ends.
 #[test]
 fn long_chains_are_followed() {
@@ -229,10 +256,10 @@ fn what_is_wrong_is_named() {
         Argument::Pairs,
         "there is no degree of freedom 5, and no equation gives it",
     );
-    // A pair whose sides move alike.
-    let both = vec![(0, vec![1.0, 0.0]), (4, vec![-1.0, 0.0])];
-    let small = Small { rows: vec![both], equations: vec![(4, one(0))], fixed: vec![] };
-    refused(small.model(), Argument::Pairs, "its weights cancel");
+    rows(
+        vec![(0, vec![1.0, 0.0]), (0, vec![-1.0, 0.0])],
+        "pair 0: its weights cancel, so that no node",
+    );
 
     let arrays = |change: fn(&mut EquationArrays), part: &str| {
         let small = Small { rows: vec![along()], equations: vec![], fixed: vec![] };

@@ -11,9 +11,8 @@
 //! rows depend on each other.
 
 use super::change_of_variables::{ChangeOfVariables, VariableColumns};
-use super::messages;
 use super::supports::FixedComponent;
-use crate::error::{Argument, Error};
+use crate::error::Error;
 use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
 use crate::linalg::sparse_matrix::OutOfMemory;
 use crate::linalg::vector3::{self, Vector3, unit};
@@ -61,7 +60,7 @@ pub(super) struct HostDofs<'h> {
 /// will if they `may_turn`.
 ///
 /// # Errors
-/// A pair that moves nothing; not enough memory.
+/// Not enough memory.
 pub(super) fn general_rows(
     rows: &Rows,
     (frames, may_turn): (&mut [Frame], bool),
@@ -72,7 +71,7 @@ pub(super) fn general_rows(
     let solved = solve(&rows.equations, places.len(), &may_choose);
     let mut supports = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
-        let held = HeldPair::new(rows, &solved, pair)?;
+        let held = HeldPair::new(rows, &solved, pair);
         supports.extend(held.map(|held| held.along(frame, may_turn, places)).unwrap_or_default());
     }
     let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
@@ -94,25 +93,16 @@ struct HeldPair<'s> {
 }
 
 impl<'s> HeldPair<'s> {
-    /// `None` if one of its equations follows from those of other pairs.
-    ///
-    /// # Errors
-    /// A pair whose weights cancel along every axis. One whose nodes are fixed along all of them rests, as where a surface
-    /// ends at a wall.
-    fn new(rows: &Rows, solved: &'s Solved, pair: usize) -> Result<Option<Self>, Error> {
+    /// `None` if one of its equations follows from those of other pairs. A pair whose nodes are fixed along every axis
+    /// rests, as where a surface ends at a wall.
+    fn new(rows: &Rows, solved: &'s Solved, pair: usize) -> Option<Self> {
         let dim = rows.dim;
         let of_axis = |axis| Some((axis, dependent(solved, pair, dim, axis)?));
         let of_axes: Vec<_> = (0..dim).filter_map(of_axis).collect();
         let own = dim * pair..dim * (pair + 1);
         let mut sides = of_axes.iter().flat_map(|(_, expression)| &expression.right_sides);
-        if !sides.all(|(equation, _)| own.contains(equation)) {
-            return Ok(None);
-        }
-        let cancels = |(_, expression): &(usize, &Expression)| expression.unknowns.is_empty();
-        if of_axes.len() == dim && of_axes.iter().all(cancels) {
-            return Err(Error::invalid(Argument::Pairs, messages::moves_nothing(pair)));
-        }
-        Ok(Some(HeldPair { pair, dim, of_axes }))
+        let alone = sides.all(|(equation, _)| own.contains(equation));
+        alone.then_some(HeldPair { pair, dim, of_axes })
     }
 
     /// Orthonormal directions along which the pair is held: of those with `delta_a = sum c_b delta_b + fixed values`.

@@ -160,11 +160,3 @@ pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
         motion::components(relative)
     )
 }
-
-/// The weights of a pair cancel along all axes.
-pub(super) fn moves_nothing(pair: usize) -> String {
-    format!(
-        "pair {}: its weights cancel, so that no node moves it: leave the pair out",
-        index(pair)
-    )
-}
