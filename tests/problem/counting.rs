@@ -186,8 +186,10 @@ fn of_supports_and_pairs() {
         "degree of freedom 1 is listed",
         "degree of freedom 2 is listed",
     );
-    let inclined = |h: &mut Host| (h.fixed, h.normals[2]) = (vec![2, 3], 1.0);
-    wrong(inclined, "pair 1: its nodes are fixed", "pair 2: its nodes are fixed");
+    let itself = |h: &mut Host| {
+        (h.master_start, h.masters, h.weights) = ([0, 0, 1], vec![2, 3], vec![1.0]);
+    };
+    wrong(itself, "pair 1: its weights cancel", "pair 2: its weights cancel");
     let model = Host::with(|h| h.fixed = vec![2, 3]).unwrap();
     let lifted = model.condensed_load(&[0.0; 4], Some(&[1.0, 0.0]));
     refused(lifted, "both sides of pair 1 apart by 1,", "both sides of pair 2 apart by 1,");
