@@ -24,7 +24,7 @@
 !     contact_equations  a type: equations between degrees of freedom, for a model of a sparse matrix
 !     contact_surfaces a type: contact pairs that the library makes from the faces of two meshes; call
 !                      %pair or %pair_obstacle, model%new_surfaces, then %fields, %resultant,
-!                      %write, at the end %release
+!                      %write, at the end %release; several zones: %join and %table
 !     contact_operator a type to extend: a host that gives products and solutions in the place of a
 !                      matrix; model%new_operator takes it
 ! The functions signorini_... are those of signorini.h, signorini_surface.h and signorini_file.h,
@@ -327,7 +327,7 @@ module signorini
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
     type, bind(C) :: signorini_surface_data
-        integer(c_int32_t) :: struct_size = 104 + 14 * address_bytes
+        integer(c_int32_t) :: struct_size = 112 + 16 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         type(c_ptr) :: rows = c_null_ptr
@@ -355,6 +355,17 @@ module signorini
         type(c_ptr) :: beyond = c_null_ptr
         type(c_ptr) :: beyond_distances = c_null_ptr
         type(c_ptr) :: folded_distances = c_null_ptr
+        integer(c_int64_t) :: n_zones = 0
+        type(c_ptr) :: zone_start = c_null_ptr
+        type(c_ptr) :: friction = c_null_ptr
+    end type
+
+    type, bind(C) :: signorini_contact_zone
+        integer(c_int32_t) :: struct_size = 8 + 3 * address_bytes
+        integer(c_int32_t) :: law = 0
+        type(c_ptr) :: contact = c_null_ptr
+        type(c_ptr) :: name = c_null_ptr
+        type(c_ptr) :: friction = c_null_ptr
     end type
 
     type, bind(C) :: signorini_contact_fields
@@ -606,6 +617,17 @@ module signorini
             type(c_ptr), value :: contact
             type(signorini_surface_data), intent(inout) :: data
         end function
+        integer(c_int32_t) function signorini_surface_join(n_zones, zones, joined) bind(C)
+            import
+            integer(c_int64_t), value :: n_zones
+            type(c_ptr), value :: zones
+            type(c_ptr), intent(out) :: joined
+        end function
+        integer(c_int32_t) function signorini_surface_table(joined, d, force, state, text, size) bind(C)
+            import
+            type(c_ptr), value :: joined, d, force, state, text
+            integer(c_int64_t), value :: size
+        end function
         integer(c_int32_t) function signorini_surface_fields(contact, gap, slip0, d, force, state, fields) &
             bind(C)
             import
@@ -748,11 +770,17 @@ module signorini
         type(signorini_surface_data) :: data
         integer, allocatable :: node(:)
         real(c_double), allocatable :: gap(:), area(:), normal(:, :), tangent(:, :), point(:, :)
+        ! Of joined zones: zone i has the pairs zone_start(i) + 1 to zone_start(i + 1); numbers for
+        ! SIGNORINI_LAW_BY_PAIR.
+        integer, allocatable :: zone_start(:)
+        real(c_double), allocatable :: friction(:)
     contains
         procedure :: pair => surfaces_pair
         procedure :: pair_obstacle => surfaces_pair_obstacle
         procedure :: pair_rigid => surfaces_pair_rigid
+        procedure :: join => surfaces_join
         procedure :: summary => surfaces_summary
+        procedure :: table => surfaces_table
         procedure :: fields => surfaces_fields
         procedure :: resultant => surfaces_resultant
         procedure :: write => surfaces_write
@@ -783,7 +811,7 @@ module signorini
     private :: text_of, finish, refused, refuse, check_size, check_shape
     private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
-    private :: check_surfaces, list_faces, check_results, prepare, keep_pairs, reals_of, address2, finish_sparse
+    private :: check_surfaces, list_faces, check_results, prepare, keep_pairs, keep_arrays, reals_of, address2, finish_sparse
     private :: sparse_matrix, check_components, flat_position, dimension_of, check_found, no_stiffness
     private :: operator_inverse, operator_held, received, call_stiffness, call_inverse, call_held
     private :: address, address_of_extra, copy_states, entries, number, text, tuple, keep_sizes
@@ -1811,6 +1839,68 @@ contains
         if (info == 0) call keep_pairs(self, shape(coordinates), told)
     end subroutine
 
+    ! Joins the pairs of zones on one mesh, each with a name. laws: of each zone, absent: no friction. numbers(:, zones):
+    ! the parameters of each law, one set for all pairs of the zone.
+    subroutine surfaces_join(self, zones, names, info, laws, numbers, message)
+        class(contact_surfaces), intent(inout) :: self
+        type(contact_surfaces), intent(in) :: zones(:)
+        character(len=*), intent(in) :: names(:)
+        integer, intent(out) :: info
+        integer, intent(in), optional :: laws(:)
+        real(c_double), intent(in), optional :: numbers(:, :)
+        character(len=*), intent(out), optional :: message
+        type(signorini_contact_zone), allocatable, target :: given(:)
+        character(kind=c_char), allocatable, target :: letters(:, :)
+        real(c_double), allocatable, target :: friction(:, :)
+        type(refusal) :: wrong
+        integer :: i, k
+        call self%release()
+        call check_size(wrong, 2, 'names', size(names), size(zones), 'one for each zone')
+        if (present(laws)) call check_size(wrong, 4, 'laws', size(laws), size(zones), 'one for each zone')
+        if (present(numbers)) call check_size(wrong, 5, 'numbers', size(numbers, 2), size(zones), &
+            'a column for each zone')
+        if (refused(wrong, info, message)) return
+        allocate (given(size(zones)), letters(len(names) + 1, size(zones)), friction(3, size(zones)))
+        letters = c_null_char
+        friction = 0
+        if (present(numbers)) friction(:min(3, size(numbers, 1)), :) = numbers(:min(3, size(numbers, 1)), :)
+        do i = 1, size(zones)
+            do k = 1, len_trim(names(i))
+                letters(k, i) = names(i)(k:k)
+            end do
+            if (present(laws)) given(i)%law = number(laws(i))
+            given(i)%contact = zones(i)%handle
+            given(i)%name = c_loc(letters(1, i))
+            given(i)%friction = c_loc(friction(1, i))
+        end do
+        call finish(signorini_surface_join(size(zones, kind=c_int64_t), c_loc(given), self%handle), info, message, &
+            [1, 1, 1])
+        if (info /= 0) return
+        call keep_arrays(self, [zones(1)%dim, zones(1)%nodes], zones(1)%dofs)
+    end subroutine
+
+    ! A table of what each zone carries, for a log; empty if that cannot be told.
+    function surfaces_table(self, d, force, state) result(text)
+        class(contact_surfaces), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: d(:), force(:)
+        integer, intent(in) :: state(:)
+        character(len=:), allocatable :: text
+        character(kind=c_char), allocatable, target :: letters(:)
+        integer(c_int32_t), allocatable, target :: states(:)
+        integer :: i
+        text = ''
+        allocate (states(max(1, self%pairs)), letters(512 * (2 + int(self%data%n_zones))))
+        if (.not. c_associated(self%handle) .or. size(state) /= self%pairs) return
+        if (min(size(d), size(force)) < self%dim * self%pairs) return
+        states(:self%pairs) = int(state, c_int32_t)
+        if (signorini_surface_table(self%handle, address(d), address(force), c_loc(states), c_loc(letters), &
+            size(letters, kind=c_int64_t)) /= 0) return
+        do i = 1, size(letters)
+            if (letters(i) == c_null_char) exit
+            text = text // letters(i)
+        end do
+    end function
+
     ! One sentence on what was found.
     function surfaces_summary(self) result(text)
         class(contact_surfaces), intent(in) :: self
@@ -1949,6 +2039,7 @@ contains
         self%pairs = 0
         self%nodes = 0
         self%data = signorini_surface_data()
+        if (allocated(self%zone_start)) deallocate (self%zone_start, self%friction)
         if (allocated(self%gap)) deallocate (self%node, self%gap, self%area, self%normal, &
             self%tangent, self%point)
     end subroutine
@@ -1958,6 +2049,15 @@ contains
         class(contact_surfaces), intent(inout) :: self
         integer, intent(in) :: nodes(2)
         type(preparation), intent(in) :: told
+        integer :: dofs
+        dofs = max(nodes(1), int(told%settings%dofs_per_node)) * (nodes(2) - 1) + nodes(1)
+        if (allocated(told%dofs)) dofs = int(maxval(told%dofs))
+        call keep_arrays(self, nodes, dofs)
+    end subroutine
+
+    subroutine keep_arrays(self, nodes, dofs)
+        class(contact_surfaces), intent(inout) :: self
+        integer, intent(in) :: nodes(2), dofs
         integer(c_int64_t), pointer :: numbers(:)
         integer(c_int32_t) :: status
         integer :: n
@@ -1965,8 +2065,12 @@ contains
         self%dim = nodes(1)
         self%nodes = nodes(2)
         self%pairs = int(self%data%pairs)
-        self%dofs = max(nodes(1), int(told%settings%dofs_per_node)) * (nodes(2) - 1) + nodes(1)
-        if (allocated(told%dofs)) self%dofs = int(maxval(told%dofs))
+        self%dofs = dofs
+        if (self%data%n_zones > 0) then
+            call c_f_pointer(self%data%zone_start, numbers, [self%data%n_zones + 1])
+            self%zone_start = int(numbers)
+            self%friction = reals_of(self%data%friction, 4 * self%pairs)
+        end if
         allocate (self%node(self%pairs))
         if (self%pairs > 0) then
             call c_f_pointer(self%data%nodes, numbers, [self%pairs])
@@ -2455,7 +2559,7 @@ contains
         character(len=:), allocatable :: text
         character(kind=c_char), pointer :: letters(:)
         integer :: length, i
-        call c_f_pointer(pointer, letters, [512])
+        call c_f_pointer(pointer, letters, [huge(0_c_int32_t)])
         length = 0
         do while (letters(length + 1) /= c_null_char)
             length = length + 1

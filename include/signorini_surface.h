@@ -13,7 +13,7 @@
  *     signorini_mesh_write("contact.vtu", &mesh, u, 1, &zone, 0, NULL);
  *
  * A quadratic slave face has pairs of nodes with weights: use data.rows as they are. Several
- * contact zones: make pairs for each, and one signorini_pairs of all of them.
+ * contact zones: make pairs for each, and join them by signorini_surface_join.
  */
 
 #ifndef SIGNORINI_SURFACE_H
@@ -259,7 +259,7 @@ struct signorini_surface_data {
     const double *tangents;      /**< First unit tangents, dim for each pair; in 3D t2 = n x t1. */
     /** Where the force of each pair acts on the slave's body, dim for each. */
     const double *points;
-    const int64_t *nodes;        /**< The slave node of each pair, ascending. */
+    const int64_t *nodes;        /**< The slave node of each pair, ascending in each zone. */
     /** Number of slave nodes without a pair: nothing lies over them, or they are folded. */
     int64_t n_unpaired;
     const int64_t *unpaired;     /**< These nodes. */
@@ -294,11 +294,69 @@ struct signorini_surface_data {
     const double *beyond_distances;
     /** The distance between a folded node and its neighbour, one for each; length. */
     const double *folded_distances;
+    /**
+     * Number of zones that signorini_surface_join has joined; else 0. Lists of faces are those of
+     * each zone's own pairs then, and empty here.
+     */
+    int64_t n_zones;
+    /** The first pair of each zone, counted from 0, and the number of all pairs: n_zones + 1. */
+    const int64_t *zone_start;
+    /**
+     * Friction for SIGNORINI_LAW_BY_PAIR, 4 numbers for each pair: the law of its zone and its
+     * parameters.
+     */
+    const double *friction;
 };
 
 /** Fills data, whose struct_size you set before. Its arrays live as long as the pairs. */
 int32_t signorini_surface_view(const signorini_surface_pairs *contact,
                                signorini_surface_data *data);
+
+/* ---- Several contact zones ----------------------------------------------------------------- */
+
+typedef struct signorini_contact_zone signorini_contact_zone;
+
+/** A contact zone for signorini_surface_join. */
+struct signorini_contact_zone {
+    uint32_t struct_size;                   /**< sizeof(signorini_contact_zone). */
+    int32_t law; /**< SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR. */
+    const signorini_surface_pairs *contact; /**< Its pairs. */
+    const char *name;                       /**< Its name, UTF-8, which no other zone has. */
+    /** The parameters of the law, one set for all of its pairs; NULL if it has none. */
+    const double *friction;
+};
+
+/**
+ * Joins the pairs of contact zones: the result has all pairs, one zone after the other, as
+ * data.zone_start tells, and data.friction for SIGNORINI_LAW_BY_PAIR. It is an object of its own:
+ * the zones may be released. All calls take it, and each zone's own pairs with its part of d, F and
+ * state.
+ *
+ * A node may be slave in one zone and master in another. A face that is slave in two zones is
+ * refused if both have a pair of one of its nodes: pair it once, with the masters of both.
+ *
+ * @param n_zones  number of zones, at least 1
+ * @param zones    the zones, paired on one mesh with one numbering
+ * @param joined   out: the pairs of all zones; NULL unless 0 is returned
+ * @return the status; signorini_last_error names zones, face and node
+ */
+int32_t signorini_surface_join(int64_t n_zones, const signorini_contact_zone *zones,
+                               signorini_surface_pairs **joined);
+
+/**
+ * Writes a table for a log: of each zone its name, its pairs, how many are open, slip and stick,
+ * the force on the slave's body, the area of the pairs that press, and the largest pressure. Pairs
+ * that were not joined are one zone.
+ *
+ * @param joined  the pairs
+ * @param d       relative displacements, N
+ * @param F       contact forces, N
+ * @param state   SIGNORINI_STATE_... of each pair
+ * @param text    out: size bytes, ended by a zero byte; what does not fit is left out
+ * @param size    at least 1; 160 for each zone and for the head hold names of 40 bytes
+ */
+int32_t signorini_surface_table(const signorini_surface_pairs *joined, const double *d,
+                                const double *F, const int32_t *state, char *text, int64_t size);
 
 /* ---- A solution on the surfaces ------------------------------------------------------------ */
 

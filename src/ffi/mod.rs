@@ -54,6 +54,7 @@ mod status;
 mod structures;
 mod surface;
 mod surface_fields;
+mod surface_join;
 mod surface_new;
 mod surface_settings;
 mod surface_view;

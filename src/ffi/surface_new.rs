@@ -8,11 +8,11 @@ use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::structures::Structure;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
-use super::surface_settings::{ParsedSurfaceSettings, SignoriniSurfaceSettings};
-use crate::error::Argument;
+use super::surface_settings::{Numbering, ParsedSurfaceSettings, SignoriniSurfaceSettings};
+use crate::error::{Argument, Message};
 use crate::problem;
 use crate::surface::{
-    NodeDofs, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
+    PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
     pair_with_rigid_surface,
 };
 
@@ -23,7 +23,10 @@ pub struct SignoriniSurfacePairs {
     pub(super) found: SurfacePairs,
     /// Nodes of the host.
     pub(super) nodes: usize,
-    pub(super) received: ParsedSurfaceSettings,
+    pub(super) numbering: Numbering,
+    /// Start and nodes of the slave faces; none of joined pairs.
+    pub(super) slave_faces: [Vec<usize>; 2],
+    pub(super) zones: JoinedZones,
     pub(super) arrays: PairArrays,
     pub(super) points: Vec<f64>,
     pub(super) slaves: Vec<i64>,
@@ -73,7 +76,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
     c_entry!(|arrays| {
         let place = arrays.out_pointer(7, "contact", contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
-        let base = host.received.base;
+        let base = host.received.numbering.base;
         let master = SignoriniFaces::read(arrays, (5, "master"), master, base)?;
         let surfaces = Surfaces {
             dim: host.dim,
@@ -113,7 +116,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let Host { dim, coordinates, received, .. } = &host;
         let slave = SignoriniFaces::view(&host.slave);
-        let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.base, obstacle)?;
+        let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.numbering.base, obstacle)?;
         let given = &received.settings;
         let found = received.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {
@@ -169,28 +172,56 @@ impl<'h> Host<'h> {
         };
         let coordinates = arrays.required(3, "coordinates", coordinates, length)?;
         let received = SignoriniSurfaceSettings::read(arrays, 6, settings, (dim, nodes))?;
-        let slave = SignoriniFaces::read(arrays, (4, "slave"), slave, received.base)?;
+        let slave = SignoriniFaces::read(arrays, (4, "slave"), slave, received.numbering.base)?;
         Ok(Host { dim, coordinates, slave, received })
     }
 }
 
-impl ParsedSurfaceSettings {
-    fn dofs(&self) -> NodeDofs<'_> {
-        match &self.listed {
-            Some(dofs) => NodeDofs::Listed(dofs),
-            None => NodeDofs::PerNode(self.per_node),
-        }
+/// What joined pairs hold of their zones; nothing of pairs that were not joined.
+#[derive(Default)]
+pub(super) struct JoinedZones {
+    pub(super) names: Vec<String>,
+    /// The first pair of each zone, and their number.
+    pub(super) starts: Vec<i64>,
+    /// Four numbers a pair.
+    pub(super) friction: Vec<f64>,
+    pub(super) summary: Message,
+}
+
+impl JoinedZones {
+    pub(super) fn is_empty(&self) -> bool {
+        self.names.is_empty()
     }
 }
 
 impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
     fn from((found, host): (SurfacePairs, Host<'_>)) -> Self {
-        let Host { dim, coordinates, received, .. } = host;
-        let (nodes, base) = (coordinates.len() / dim, received.base);
+        let summary = found.summary();
+        let zones = JoinedZones { summary, ..JoinedZones::default() };
+        let of_host = (host.coordinates.len() / host.dim, host.received.numbering);
+        SignoriniSurfacePairs::new(found, of_host, host.slave, zones)
+    }
+}
+
+impl From<(SurfacePairs, &SignoriniSurfacePairs, JoinedZones)> for SignoriniSurfacePairs {
+    fn from((found, like, zones): (SurfacePairs, &SignoriniSurfacePairs, JoinedZones)) -> Self {
+        let of_host = (like.nodes, like.numbering.clone());
+        SignoriniSurfacePairs::new(found, of_host, [vec![0], Vec::new()], zones)
+    }
+}
+
+impl SignoriniSurfacePairs {
+    fn new(
+        found: SurfacePairs,
+        (nodes, numbering): (usize, Numbering),
+        slave_faces: [Vec<usize>; 2],
+        zones: JoinedZones,
+    ) -> Self {
+        let base = numbering.base;
         let counted = |values: &[usize]| -> Vec<i64> {
             values.iter().map(|value| *value as i64 + base).collect()
         };
-        let arrays = found.rows_on(received.dofs());
+        let arrays = found.rows_on(numbering.dofs());
         let indices = [counted(&arrays.master_start), counted(&arrays.masters)];
         let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
         let points = found.pairs.iter().flat_map(|pair| pair.point[..found.dim].to_vec());
@@ -198,7 +229,7 @@ impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
         let folded: Vec<usize> = folds.iter().flat_map(|fold| [fold.node, fold.into]).collect();
         let (beyond, beyond_distances): (Vec<usize>, _) =
             found.report.beyond.iter().copied().unzip();
-        let summary = found.summary();
+        let summary = &zones.summary;
         let summary = if base == 1 { summary.counted_from_one() } else { summary.to_string() };
         let rows = SignoriniPairs {
             dim: found.dim as i32,
@@ -223,7 +254,9 @@ impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
             rows,
             _indices: indices,
             nodes,
-            received,
+            numbering,
+            slave_faces,
+            zones,
             arrays,
             found,
         }
@@ -233,7 +266,7 @@ impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
 impl SignoriniSurfacePairs {
     /// Degrees of freedom of all nodes of the host, `dim` for each.
     pub(super) fn dofs(&self) -> Vec<usize> {
-        let dofs = self.received.dofs();
+        let dofs = self.numbering.dofs();
         (0..self.nodes).flat_map(|node| dofs.of(node, self.found.dim)).collect()
     }
 }

@@ -11,7 +11,7 @@ use super::structures::{self, Structure, chosen};
 use super::surface::SignoriniObstacle;
 use crate::monitor::{Monitor, ProgressFn};
 use crate::settings::Settings;
-use crate::surface::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
+use crate::surface::{NodeDofs, Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
 pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
@@ -97,14 +97,29 @@ pub struct SignoriniSurfaceSettings {
     pub clearance: f64,
 }
 
-/// Settings of a pairing as the host gave them.
-pub(super) struct ParsedSurfaceSettings {
-    pub(super) settings: SurfaceSettings,
+/// How the host numbers nodes and degrees of freedom.
+#[derive(Clone, PartialEq)]
+pub(super) struct Numbering {
     pub(super) base: i64,
     /// Degrees of freedom of each node if they are in order.
     pub(super) per_node: usize,
     /// Or all of them.
     pub(super) listed: Option<Vec<usize>>,
+}
+
+impl Numbering {
+    pub(super) fn dofs(&self) -> NodeDofs<'_> {
+        match &self.listed {
+            Some(dofs) => NodeDofs::Listed(dofs),
+            None => NodeDofs::PerNode(self.per_node),
+        }
+    }
+}
+
+/// Settings of a pairing as the host gave them.
+pub(super) struct ParsedSurfaceSettings {
+    pub(super) settings: SurfaceSettings,
+    pub(super) numbering: Numbering,
     time_limit: f64,
     progress: SignoriniProgressFn,
     user: *mut c_void,
@@ -186,7 +201,8 @@ impl SignoriniSurfaceSettings {
             let message = "it must be 0 (none) or a number of seconds";
             return refuse(format!("settings: time_limit is {time_limit}, {message}"));
         }
-        Ok(ParsedSurfaceSettings { settings, base, per_node, listed, time_limit, progress, user })
+        let numbering = Numbering { base, per_node, listed };
+        Ok(ParsedSurfaceSettings { settings, numbering, time_limit, progress, user })
     }
 
     /// The planes of symmetry.

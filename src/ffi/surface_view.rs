@@ -29,7 +29,7 @@ pub struct SignoriniSurfaceData {
     pub tangents: *const f64,
     /// Where the force of each pair acts on the slave's body, dim for each.
     pub points: *const f64,
-    /// The slave node of each pair, ascending.
+    /// The slave node of each pair, ascending in each zone.
     pub nodes: *const i64,
     /// Number of slave nodes without a pair: nothing lies over them, or they are folded.
     pub n_unpaired: i64,
@@ -69,6 +69,14 @@ pub struct SignoriniSurfaceData {
     pub beyond_distances: *const f64,
     /// The distance between a folded node and its neighbour, one for each; length.
     pub folded_distances: *const f64,
+    /// Number of zones that signorini_surface_join has joined; else 0. Lists of faces are those of
+    /// each zone's own pairs then, and empty here.
+    pub n_zones: i64,
+    /// The first pair of each zone, counted from 0, and the number of all pairs: n_zones + 1.
+    pub zone_start: *const i64,
+    /// Friction for SIGNORINI_LAW_BY_PAIR, 4 numbers for each pair: the law of its zone and its
+    /// parameters.
+    pub friction: *const f64,
 }
 
 /// Fills data, whose struct_size you set before. Its arrays live as long as the pairs.
@@ -113,6 +121,9 @@ impl SignoriniSurfacePairs {
             beyond: address(&self.beyond),
             beyond_distances: address(&self.beyond_distances),
             folded_distances: address(&self.folded_distances),
+            n_zones: self.zones.names.len() as i64,
+            zone_start: address(&self.zones.starts),
+            friction: address(&self.zones.friction),
         }
     }
 }

@@ -146,7 +146,7 @@ impl<'a> FrictionLaw<'a> {
     }
 
     /// Refuses parameters that are out of range.
-    pub(super) fn check(self, dim: usize) -> Result<(), Error> {
+    pub(crate) fn check(self, dim: usize) -> Result<(), Error> {
         const IN_PLANE: &str =
             "orthotropic, and dim is 2: a pair in the plane has one tangent, use Coulomb's law";
         if self.law().is_orthotropic() && dim == 2 {

@@ -56,6 +56,7 @@ mod true_shape;
 mod unit;
 mod watch;
 mod whole_faces;
+mod zones;
 
 pub use exact_shape::Obstacle;
 pub use fields::{NodalFields, PairResults, Resultant};
@@ -67,3 +68,4 @@ pub use rigid::{RigidSurface, pair_with_rigid_surface};
 pub use settings::{Normals, Pairing, Rims, SurfaceSettings, TrueShape};
 pub use shape::FaceKind;
 pub use symmetry::SymmetryPlane;
+pub use zones::{ContactZone, ZoneSums, join_zones, summary_of_zones};

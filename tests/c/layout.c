@@ -242,7 +242,7 @@ FIELD(signorini_surface_settings, master_shape, signorini_obstacle *, 104);
 FIELD(signorini_surface_settings, close_within, double, 112);
 FIELD(signorini_surface_settings, clearance, double, 120);
 
-SIZE(signorini_surface_data, 216);
+SIZE(signorini_surface_data, 240);
 FIELD(signorini_surface_data, struct_size, uint32_t, 0);
 FIELD(signorini_surface_data, dim, int32_t, 4);
 FIELD(signorini_surface_data, pairs, int64_t, 8);
@@ -271,6 +271,16 @@ FIELD(signorini_surface_data, n_beyond, int64_t, 184);
 FIELD(signorini_surface_data, beyond, const int64_t *, 192);
 FIELD(signorini_surface_data, beyond_distances, const double *, 200);
 FIELD(signorini_surface_data, folded_distances, const double *, 208);
+FIELD(signorini_surface_data, n_zones, int64_t, 216);
+FIELD(signorini_surface_data, zone_start, const int64_t *, 224);
+FIELD(signorini_surface_data, friction, const double *, 232);
+
+SIZE(signorini_contact_zone, 32);
+FIELD(signorini_contact_zone, struct_size, uint32_t, 0);
+FIELD(signorini_contact_zone, law, int32_t, 4);
+FIELD(signorini_contact_zone, contact, const signorini_surface_pairs *, 8);
+FIELD(signorini_contact_zone, name, const char *, 16);
+FIELD(signorini_contact_zone, friction, const double *, 24);
 
 SIZE(signorini_zone, 56);
 FIELD(signorini_zone, struct_size, uint32_t, 0);

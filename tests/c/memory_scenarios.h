@@ -593,6 +593,29 @@ static int32_t obstacle(struct world *w)
     return status;
 }
 
+/* A surface on an obstacle as a zone with a law, and its table. */
+static int32_t joined_zones(struct world *w)
+{
+    const struct brick_mesh *mesh = w->mesh;
+    const signorini_obstacle plane = {.struct_size = sizeof plane, .kind = SIGNORINI_OBSTACLE_PLANE,
+                                      .direction = {0, 0, -1}};
+    signorini_contact_zone zone = {.struct_size = sizeof zone, .law = SIGNORINI_LAW_TIED, .name = "top"};
+    signorini_surface_pairs *contact = NULL, *joined = NULL;
+    int32_t status = signorini_surface_pair_obstacle(3, mesh->nodes, mesh->at[0], &w->top, &plane, NULL,
+                                                     &contact);
+    zone.contact = contact;
+    if (status == 0) status = signorini_surface_join(1, &zone, &joined);
+    if (status == 0) {
+        static const double zeros[3 * 1024];
+        static const int32_t open[1024];
+        char text[512];
+        status = surface_data(joined).pairs > 1024 ? -1 : signorini_surface_table(joined, zeros, zeros, open, text, sizeof text);
+    }
+    signorini_surface_free(joined);
+    signorini_surface_free(contact);
+    return status;
+}
+
 static const struct scenario scenarios[] = {
     {"plane, auto", plane_auto, 0, 0},
     {"plane, no friction", plane_smooth, 0, 0},
@@ -640,6 +663,7 @@ static const struct scenario scenarios[] = {
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},
     {"node-to-surface, .vtu", node_surfaces, 0, 0},
     {"obstacle", obstacle, 0, 0},
+    {"joined zones, table", joined_zones, 0, 0},
     {"new thread: plane, auto", plane_auto, 0, NEW_THREAD},
     {"new thread: space, no friction", space_smooth, 0, NEW_THREAD},
     {"new thread: LCP", lcp, 0, NEW_THREAD},

@@ -29,41 +29,73 @@ static signorini_sparse springs(int64_t size, int32_t base, const double *stiffn
 static void check_zones(int32_t base)
 {
     const double x[12] = {0, 0.3, 1, 0.3, 0, 0.1, 1, 0.1, 0, 0, 1, 0};
-    const double stiffness[12] = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4}, load[12] = {0, -4, 0, -4}, mu[4] = {0};
+    const double stiffness[12] = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4}, load[12] = {0, -4, 0, -4}, mu = 0.1;
     /* A body lies to the left of its line: each line of B looks down as a slave, up as a master. */
     const int64_t down[2][2] = {{base, base + 1}, {base + 2, base + 3}};
     const int64_t up[2][2] = {{base + 3, base + 2}, {base + 5, base + 4}};
-    int64_t count = 0, start[5], nodes[2 * 4 * 4];
-    double weights[4 * 4], normals[8], tangents[8], gap[4], d[8], F[8], u[12];
+    const char *const name[2] = {"A on B", "B on C"};
+    double d[8], F[8];
+    int32_t state[4];
     signorini_surface_settings settings;
-    signorini_surface_pairs *zone[2];
-    signorini_model *model;
+    signorini_surface_pairs *zone[2], *joined;
+    signorini_contact_zone zones[2];
 
     signorini_surface_settings_default(&settings, sizeof settings);
     settings.index_base = base;
     for (int i = 0; i < 2; i++) {
         const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = down[i]};
         const signorini_faces master = {.struct_size = sizeof master, .face_nodes = 2, .count = 1, .nodes = up[i]};
-        signorini_surface_data data = {.struct_size = sizeof data};
         CHECK_STATUS(signorini_surface_pair(2, 6, x, &slave, &master, &settings, &zone[i]), 0);
-        CHECK_STATUS(signorini_surface_view(zone[i], &data), 0);
-        CHECK(data.pairs == 2);
-        initial_gaps(&data, 0, 0, gap + count);
-        append_zone(data.rows, &count, start, nodes, weights, normals, tangents);
+        zones[i] = (signorini_contact_zone){.struct_size = sizeof zones[i], .law = SIGNORINI_LAW_COULOMB * i,
+                                            .contact = zone[i], .name = name[i], .friction = i ? &mu : NULL};
     }
-    CHECK(count == 4);
-    const signorini_pairs all = {.struct_size = sizeof all, .dim = 2, .count = count, .normals = normals,
-                                 .tangents = tangents, .row_start = start, .row_nodes = nodes, .row_weights = weights};
     const signorini_sparse K = springs(12, base, stiffness);
-    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &all, NULL, &model), 0);
-    CHECK_STATUS(signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL, d, F, NULL,
-                                       NULL, NULL, NULL), 0);
-    CHECK_STATUS(signorini_model_recover(model, 1, load, NULL, d, u), 0);
+    CHECK_STATUS(solve_zones(2, zones, &K, 0, NULL, load, d, F, state), 0);
     for (int i = 0; i < 4; i++)
         CHECK_NEAR(F[2 * i], i < 2 ? -3.2 : -2);
-    for (int i = 0; i < 6; i++)
-        CHECK_NEAR(u[2 * i + 1], i < 2 ? -0.8 : i < 4 ? -0.6 : -0.5);
-    signorini_model_free(model);
+
+    /* What the joined pairs are, and what each zone carries. */
+    signorini_surface_data data = {.struct_size = sizeof data};
+    signorini_resultant sums = {.struct_size = sizeof sums};
+    char table[1024], part[40];
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), 0);
+    CHECK_STATUS(signorini_surface_view(joined, &data), 0);
+    CHECK(data.pairs == 4 && data.n_zones == 2 && data.rows->count == 4);
+    CHECK(data.zone_start[0] == 0 && data.zone_start[1] == 2 && data.zone_start[2] == 4);
+    for (int i = 0; i < 4; i++)
+        CHECK(data.friction[4 * i] == i / 2 && data.friction[4 * i + 1] == mu * (i / 2) && data.friction[4 * i + 2] == 0);
+    CHECK_TEXT(data.summary, "A on B: 2 pairs on 100.00 %");
+    CHECK_TEXT(data.summary, ". B on C: 2 pairs on");
+    CHECK_STATUS(signorini_surface_table(joined, d, F, state, table, sizeof table), 0);
+    CHECK_TEXT(table, "\nA on B                  2        0        2        0   0.0000e+00   6.4000e+00");
+    CHECK_TEXT(table, "\nB on C                  2 ");
+    CHECK_STATUS(signorini_surface_table(joined, d, F, state, part, sizeof part), 0);
+    CHECK(strlen(part) == sizeof part - 1 && strncmp(part, table, sizeof part - 1) == 0);
+    CHECK_STATUS(signorini_surface_table(joined, d, F, state, part, 0), -6);
+    CHECK_STATUS(signorini_surface_resultant(joined, NULL, d, F, NULL, &sums), 0);
+    CHECK_NEAR(sums.force[1], 2 * 3.2 + 2 * 2);
+    CHECK_STATUS(signorini_surface_resultant(zone[1], NULL, d + 4, F + 4, NULL, &sums), 0);
+    CHECK_NEAR(sums.force[1], 2 * 2);
+    signorini_surface_free(joined);
+
+    /* What is refused. */
+    zones[1].name = name[0];
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    CHECK_TEXT(signorini_last_error(), "two zones are named 'A on B'");
+    zones[1].name = "";
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    CHECK_TEXT(signorini_last_error(), "zone 1 has no name");
+    zones[1].name = "again";
+    zones[1].contact = zone[0];
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    CHECK_TEXT(signorini_last_error(), "slave face 0 of zone 'again' is slave face 0 of zone 'A on B', and both");
+    zones[1].law = SIGNORINI_LAW_BY_PAIR;
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    zones[1].law = SIGNORINI_LAW_COULOMB;
+    zones[1].friction = NULL;
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    CHECK_STATUS(signorini_surface_join(0, zones, &joined), -1);
+    CHECK(joined == NULL);
     for (int i = 0; i < 2; i++)
         signorini_surface_free(zone[i]);
 }

@@ -10,7 +10,7 @@ program surfaces_test
     real(dp), parameter :: places(2, 5) = reshape([0._dp, 0.1_dp, 1._dp, 0.1_dp, -1._dp, 0._dp, 0.5_dp, &
         0._dp, 2._dp, 0._dp], [2, 5])
     integer, parameter :: slave(3, 1) = reshape([1, 2, 0], [3, 1]), master(2, 2) = reshape([5, 4, 4, 3], [2, 2])
-    type(contact_surfaces) :: surfaces
+    type(contact_surfaces) :: surfaces, joined
     type(contact_model) :: model
     type(signorini_resultant) :: sums
     type(signorini_obstacle) :: plane
@@ -42,6 +42,27 @@ program surfaces_test
     call model%recover(load, d, u, info)
     call expect('force', info == 0 .and. abs(sums%force(2) + 2*sum(u([6, 8, 10]))) < 1d-9)
     call expect('moment', all(abs(sums%moment) < 1d-9) .and. abs(sums%pressed_area - 1) < 1d-12)
+
+    ! The same pairs as a zone with a name and a law: a tie moves as one, 1 on springs of 2 and 2 where the lower line has
+    ! a node below, and half as stiff a share elsewhere; what it carries is what acts on the upper line less its springs.
+    call joined%join([surfaces], ['the bolt'], info, [SIGNORINI_LAW_TIED], message=message)
+    call expect('join', info == 0 .and. message == '' .and. joined%pairs == 2 .and. all(joined%zone_start == [0, 2]))
+    call expect('friction', all(abs(joined%friction - [7, 0, 0, 0, 7, 0, 0, 0]) < 1d-15))
+    call expect('summary of zones', index(joined%summary(), 'the bolt: 2 pairs on') == 1)
+    call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, joined, info)
+    call model%solve(load, [0._dp, 0._dp], d, force, info, law=SIGNORINI_LAW_BY_PAIR, friction=joined%friction, &
+        state=state)
+    call expect('tie', info == 0 .and. all(state == SIGNORINI_STATE_STICK) .and. all(d == 0))
+    call joined%resultant(d, force, sums, info)
+    call model%recover(load, d, u, info)
+    call expect('force of the tie', info == 0 .and. abs(sums%force(2) - (2 + 2*sum(u([2, 4])))) < 1d-9)
+    call expect('table', index(joined%table(d, force, state), new_line('a') // 'the bolt  ') > 0 .and. &
+        index(joined%table(d, force, state), '       2        0        0        2') > 0)
+    call joined%join([surfaces, surfaces], ['one', 'two'], info, message=message)
+    call expect('shared face', info == -1 .and. index(message, "slave face 1 of zone 'two' is slave face 1 of zone 'one'") > 0)
+    call joined%release()
+    call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, surfaces, info)
+    call model%solve(load, surfaces%gap, d, force, info, state=state)
     pressure = -7
     node_state = -1
     call surfaces%fields(d, force, info, state=state, pressure=pressure, traction=traction, &

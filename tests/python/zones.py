@@ -57,6 +57,26 @@ class Zones(unittest.TestCase):
                                  law="cohesive")
         np.testing.assert_allclose(alone.F, 0, atol=1e-9)
 
+    def test_each_zone_has_its_law(self):
+        """A tie above and given thresholds below, pushed aside: the tie holds, the threshold is reached."""
+        zones = {"above": signorini.Zone(self.contacts["above"], law="tied"),
+                 "below": signorini.Zone(self.contacts["below"], g=0.125)}
+        springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
+        model = signorini.Model.from_surfaces(springs, zones)
+        self.load[[0, 2]] = 6
+        result = model.solve(self.load, {"above": 0.0, "below": self.contacts["below"].gaps})
+        self.assertEqual(result.status, Status.SOLVED)
+        above, below = result.zone("above"), result.zone("below")
+        self.assertTrue((above.state == State.STICK).all())
+        np.testing.assert_array_equal(above.d, 0)
+        self.assertTrue((below.state == State.SLIP).all())
+        np.testing.assert_allclose(np.abs(below.F[:, 1]), 0.125, atol=1e-9)
+        # Both upper lines go aside as one, by springs of 1 and 2 against 6 less the threshold; the lowest one by the rest.
+        u = model.recover(result.d, self.load)
+        np.testing.assert_allclose(u[[0, 4, 8]], [(6 - 0.125) / 3, (6 - 0.125) / 3, 0.125 / 4], atol=1e-9)
+        whole = model.solve(self.load, mu=0.0)
+        self.assertTrue((whole.state == State.SLIP).all(), "a law of the case stands for those of the zones")
+
     def test_names_are_told(self):
         with self.assertRaisesRegex(KeyError, "mu names the zone 'bolt', there is none: the zones are 'above', 'below'"):
             self.model.solve(self.load, mu={"bolt": 0.1})
@@ -66,6 +86,10 @@ class Zones(unittest.TestCase):
             signorini.Model.from_surfaces(np.eye(2), {})
         with self.assertRaisesRegex(TypeError, "zones\\['bolt'\\] is a int"):
             signorini.Model.from_surfaces(np.eye(2), {"bolt": 3})
+        with self.assertRaisesRegex(ValueError, "zones\\['bolt'\\]: mu has 2 numbers: give the 1 of one pair"):
+            signorini.Model.from_surfaces(np.eye(2), {"bolt": signorini.Zone(self.contacts["above"], [0.1, 0.2])})
+        with self.assertRaisesRegex(signorini.SignoriniError, "slave face 0 of zone 'two' is slave face 0 of zone 'one'"):
+            signorini.Model.from_surfaces(np.eye(2), dict.fromkeys(("one", "two"), self.contacts["above"]))
         alone = signorini.solve(common.K, common.LOAD, 0.0, 0.3)
         with self.assertRaisesRegex(ValueError, "the model has no zones with names"):
             alone.zone("above")

@@ -22,3 +22,4 @@ mod rows;
 mod symmetry;
 mod ties;
 mod true_shapes;
+mod zones;

@@ -61,12 +61,14 @@ from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
 from ._surfaces import (Cone, Cylinder, Fields, Plane, Resultant, RigidFaces, Sphere, SurfacePairs, Torus,
                         pair_obstacle, pair_surfaces)
+from ._zones import Zone
 
 __all__ = [
     "ABI_VERSION", "Cone", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
     "LcpProblem", "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Plane", "Progress", "Proof",
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
     "SurfacePairs", "Torus", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
+    "Zone",
     "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",
     "section_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
 ]

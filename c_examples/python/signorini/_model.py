@@ -9,7 +9,7 @@ import numpy as np
 
 from ._arrays import at, components, copied, fit, pairs_of, per_pair, reals, stiffness
 from ._call import Call
-from ._constants import START_PREVIOUS, ModelKind, Status, member
+from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
 from ._meshes import pair_meshes
@@ -192,7 +192,8 @@ class Model:
         K, fixed, equations, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
         Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
-        in one zone and master in another. gap, mu, g, friction and slip0 of a case may then be a dict too, with
+        in one zone and master in another. A Zone in the place of SurfacePairs has a law of its own, which a case
+        without a law of its own takes. gap, mu, g, friction and slip0 of a case may then be a dict too, with
         the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
         zones = Zones(contact) if isinstance(contact, dict) else None
@@ -200,9 +201,9 @@ class Model:
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
-        for name, one in (contact if zones else {None: contact}).items():
+        for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
-        rows = zones.rows(equations) if zones else contact.with_equations(equations)
+        rows = (zones or contact).with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
         model.contact, model._zones = contact, zones
@@ -367,6 +368,8 @@ class Model:
             gap = self._zones.all("gaps") if gap is None else self._zones.joined("gap", gap)
             slip0 = self._zones.joined("slip0", slip0)
             friction.values = self._zones.joined(friction.name, friction.values)
+            if self._zones.has_laws and friction.law == Law.FRICTIONLESS:
+                friction = Friction(None, None, Law.BY_PAIR, self._zones.friction)
         elif gap is None and self.contact is not None:
             gap = self.contact.gaps
         return Case(

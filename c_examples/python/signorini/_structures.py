@@ -165,6 +165,16 @@ class SurfaceData(ctypes.Structure):
         ("covered_area", real), ("search_distance", real), ("not_opposed", i64),
         ("boxes_searched", i64), ("on_symmetry", i64), ("n_beyond", i64),
         ("beyond", address), ("beyond_distances", address), ("folded_distances", address),
+        ("n_zones", i64), ("zone_start", address), ("friction", address),
+    ]
+
+
+class ContactZone(ctypes.Structure):
+    """signorini_contact_zone"""
+
+    _fields_ = [
+        ("struct_size", u32), ("law", i32), ("contact", address), ("name", ctypes.c_char_p),
+        ("friction", address),
     ]
 
 

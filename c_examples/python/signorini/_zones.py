@@ -1,12 +1,16 @@
 """Contact zones by name, in one model."""
 
+import ctypes
+import weakref
 from collections import namedtuple
 
 import numpy as np
 
-from ._arrays import reals
+from ._arrays import at, copied, reals
 from ._constants import State
-from ._sparse import ContactPairs
+from ._law import Friction
+from ._library import check, library
+from ._structures import ContactZone, SurfaceData, address, sized
 from ._surfaces import SurfacePairs
 
 ZoneSums = namedtuple("ZoneSums", "zone pairs open slip stick pressed_area force")
@@ -17,17 +21,42 @@ press.  force: of the contact on the slave's body, (3,).
 """
 
 
+class Zone:
+    """A contact zone with a law of its own, for Model.from_surfaces.
+
+    contact: SurfacePairs.  mu, g, law, friction: as for solve, the numbers of one pair for all pairs of the zone.
+    """
+
+    def __init__(self, contact, mu=None, *, g=None, law=None, friction=None):
+        self.contact, self.friction = contact, Friction(mu, g, law, friction)
+
+    def numbers(self, name):
+        """The parameters of the law, an array; None if it has none."""
+        asked = self.friction.law.numbers
+        if not asked:
+            return None
+        found = np.ravel(reals(f"zones[{name!r}]: {self.friction.name}", self.friction.values))
+        if found.size != asked:
+            raise ValueError(f"zones[{name!r}]: {self.friction.name} has {found.size} numbers: give the {asked} of one "
+                             "pair, for all pairs of the zone")
+        return np.ascontiguousarray(found)
+
+
 class Zones:
     """Pairs of several zones, one zone after the other."""
 
     def __init__(self, contacts):
         if not contacts:
             raise ValueError("zones is empty: give at least one zone, its name and its SurfacePairs")
-        for name, contact in contacts.items():
+        # Without a zone that has a law, the law of a case is that of all pairs.
+        self.has_laws = any(isinstance(zone, Zone) for zone in contacts.values())
+        zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
+        self.contacts = {name: zone.contact for name, zone in zones.items()}
+        for name, contact in self.contacts.items():
             if not isinstance(contact, SurfacePairs):
                 raise TypeError(f"zones[{name!r}] is a {type(contact).__name__}: give what pair_surfaces or "
                                 f"pair_obstacle returns")
-        self.contacts = dict(contacts)
+        self._join(zones)
         ends = np.cumsum([0, *(contact.pairs for contact in self.contacts.values())])
         self.places = {name: slice(begin, end) for name, begin, end in zip(self.contacts, ends, ends[1:])}
 
@@ -35,11 +64,22 @@ class Zones:
         """An array of all zones."""
         return np.concatenate([getattr(contact, name) for contact in self.contacts.values()])
 
-    def rows(self, equations):
-        """The pairs of all zones."""
-        rows = [row for contact in self.contacts.values() for row in contact.rows]
-        return ContactPairs(None, self.all("normals"), None, None, self.all("tangents"), rows,
-                            equations)
+    # The pairs of all zones for the library, with equations between degrees of freedom.
+    with_equations = SurfacePairs.with_equations
+
+    def _join(self, zones):
+        """The pairs of all zones as one object of the library."""
+        functions, handle, data = library(), address(), sized(SurfaceData)
+        numbers = [zone.numbers(name) for name, zone in zones.items()]
+        given = (ContactZone * len(zones))(*[
+            sized(ContactZone, law=zone.friction.law, contact=zone.contact._handle, name=name.encode(), friction=at(own))
+            for (name, zone), own in zip(zones.items(), numbers)])
+        check(functions, functions.surface_join(len(zones), given, ctypes.byref(handle)))
+        weakref.finalize(self, functions.surface_free, handle.value)
+        check(functions, functions.surface_view(handle, ctypes.byref(data)))
+        self.summary, self.structure = data.summary.decode(), data.rows
+        found = copied(data.friction, (data.pairs, 4))
+        self.friction = np.zeros((0, 4)) if found is None else found
 
     def joined(self, what, values):
         """Numbers for each pair from those of each zone by name; other values as they are."""

@@ -1,0 +1,244 @@
+//! Contact zones with names in one set of pairs, and a table of what they carry.
+
+use std::fmt::Write;
+use std::ops::Range;
+use std::ptr;
+
+use libc::c_char;
+
+use super::args::{Arrays, c_entry, size};
+use super::guard::{self, Failure};
+use super::law;
+use super::numbers::Numbered;
+use super::surface_fields::{pair_results, wrong};
+use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
+use crate::error::index;
+use crate::law::State;
+use crate::problem::Law;
+use crate::surface::{ContactZone, Faces, ZoneSums, join_zones, summary_of_zones};
+
+/// A contact zone for signorini_surface_join.
+#[repr(C)]
+pub struct SignoriniContactZone {
+    /// sizeof(signorini_contact_zone).
+    pub struct_size: u32,
+    /// SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR.
+    pub law: i32,
+    /// Its pairs.
+    pub contact: *const SignoriniSurfacePairs,
+    /// Its name, UTF-8, which no other zone has.
+    pub name: *const c_char,
+    /// The parameters of the law, one set for all of its pairs; NULL if it has none.
+    pub friction: *const f64,
+}
+
+/// Number of the zones among the arguments.
+const ZONES: i32 = 2;
+
+/// Bytes of a pair and of a node of a row that a call takes, in a few copies.
+const OF_PAIR: usize = 2048;
+const OF_NODE: usize = 256;
+
+/// Joins the pairs of contact zones: the result has all pairs, one zone after the other, as
+/// data.zone_start tells, and data.friction for SIGNORINI_LAW_BY_PAIR. It is an object of its own:
+/// the zones may be released. All calls take it, and each zone's own pairs with its part of d, F and
+/// state.
+///
+/// A node may be slave in one zone and master in another. A face that is slave in two zones is
+/// refused if both have a pair of one of its nodes: pair it once, with the masters of both.
+///
+/// @param n_zones  number of zones, at least 1
+/// @param zones    the zones, paired on one mesh with one numbering
+/// @param joined   out: the pairs of all zones; NULL unless 0 is returned
+/// @return the status; signorini_last_error names zones, face and node
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_join(
+    n_zones: i64,
+    zones: *const SignoriniContactZone,
+    joined: *mut *mut SignoriniSurfacePairs,
+) -> i32 {
+    c_entry!(|arrays| {
+        let place = arrays.out_pointer(3, "joined", joined)?;
+        let count = size(1, "n_zones", n_zones)?;
+        let given = arrays.all(ZONES, "zones", zones, count)?;
+        let zones: Vec<Zone<'_>> = given
+            .into_iter()
+            .enumerate()
+            .map(|(number, zone)| Zone::read(arrays, number, zone))
+            .collect::<Result<_, _>>()?;
+        guard::reserve(zones.iter().map(|zone| zone.contact.bytes()).sum())?;
+        let Some(first) = zones.first() else {
+            return Err(Failure::argument(1, "n_zones is 0, there must be a zone"));
+        };
+        let like_first = |zone: &Zone<'_>| {
+            let (own, other) = (zone.contact, first.contact);
+            own.nodes == other.nodes && own.numbering == other.numbering
+        };
+        if let Some(zone) = zones.iter().find(|zone| !like_first(zone)) {
+            return Err(Failure::argument(
+                ZONES,
+                format!(
+                    "zone '{}' is of another mesh than zone '{}', or numbers nodes or degrees of freedom otherwise",
+                    zone.name, first.name
+                ),
+            ));
+        }
+        let parts: Vec<ContactZone<'_>> = zones.iter().map(Zone::part).collect();
+        let found = join_zones(&parts).map(|found| (found, first.contact, joined_zones(&zones)));
+        place.fill(found, |_| ZONES)
+    })
+}
+
+/// Writes a table for a log: of each zone its name, its pairs, how many are open, slip and stick,
+/// the force on the slave's body, the area of the pairs that press, and the largest pressure. Pairs
+/// that were not joined are one zone.
+///
+/// @param joined  the pairs
+/// @param d       relative displacements, N
+/// @param F       contact forces, N
+/// @param state   SIGNORINI_STATE_... of each pair
+/// @param text    out: size bytes, ended by a zero byte; what does not fit is left out
+/// @param size    at least 1; 160 for each zone and for the head hold names of 40 bytes
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_table(
+    joined: *const SignoriniSurfacePairs,
+    d: *const f64,
+    F: *const f64,
+    state: *const i32,
+    text: *mut c_char,
+    size: i64,
+) -> i32 {
+    c_entry!(|arrays| {
+        let joined = arrays.handle(1, "joined", joined)?;
+        let none = ptr::null();
+        let results = pair_results(arrays, joined, (1, none), (1, none), (2, d), (3, F))?;
+        let state = arrays.required(4, "state", state, joined.arrays.count)?;
+        guard::reserve(joined.bytes())?;
+        let length = super::args::size(6, "size", size)?;
+        if length == 0 {
+            return Err(Failure::argument(6, "size is 0, it must be at least 1"));
+        }
+        let text = arrays.output(5, "text", text.cast::<u8>(), length)?;
+        arrays.check_overlap()?;
+        let mut table = head();
+        for (name, pairs) in joined.zones() {
+            let sums = joined.found.sums_of(pairs.clone(), &results).map_err(wrong)?;
+            add_row(&mut table, name, &state[pairs], &sums);
+        }
+        let fitting = (0..length).rev().find(|&end| table.is_char_boundary(end.min(table.len())));
+        let mut bytes = table.as_bytes()[..fitting.unwrap_or(0).min(table.len())].to_vec();
+        bytes.resize(length, 0);
+        text.write(&bytes);
+        Ok(0)
+    })
+}
+
+/// Characters of a name in the table, at least.
+const NAME: usize = 16;
+
+fn head() -> String {
+    format!(
+        "{:NAME$} {:>8} {:>8} {:>8} {:>8} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
+        "zone",
+        "pairs",
+        "open",
+        "slip",
+        "stick",
+        "force x",
+        "force y",
+        "force z",
+        "area",
+        "pressure"
+    )
+}
+
+fn add_row(table: &mut String, name: &str, state: &[i32], sums: &ZoneSums) {
+    let count = |wanted: State| state.iter().filter(|&&own| own == wanted.number()).count();
+    let counts = [state.len(), count(State::Open), count(State::Slip), count(State::Stick)];
+    let [x, y, z] = sums.resultant.force;
+    let numbers = [x, y, z, sums.resultant.pressed_area, sums.largest_pressure];
+    let _ = write!(table, "{name:NAME$}");
+    counts.iter().for_each(|count| _ = write!(table, " {count:>8}"));
+    numbers.iter().for_each(|number| _ = write!(table, " {:>12}", scientific(*number)));
+    table.push('\n');
+}
+
+/// A number as `printf` writes it by `%.4e`.
+fn scientific(number: f64) -> String {
+    let text = format!("{number:.4e}");
+    match text.split_once('e').map(|(digits, power)| (digits, power.parse::<i32>())) {
+        Some((digits, Ok(power))) => format!("{digits}e{power:+03}"),
+        _ => text,
+    }
+}
+
+/// A zone as the host gave it.
+struct Zone<'h> {
+    name: &'h str,
+    contact: &'h SignoriniSurfacePairs,
+    /// The number of its law, and three parameters.
+    friction: [f64; 4],
+}
+
+impl<'h> Zone<'h> {
+    fn read(
+        arrays: &mut Arrays<'h>,
+        number: usize,
+        given: &SignoriniContactZone,
+    ) -> Result<Self, Failure> {
+        let of_zone = format!("zones {}", index(number));
+        let contact = arrays.handle(ZONES, &format!("{of_zone}: contact"), given.contact)?;
+        let name = arrays.text(ZONES, &format!("{of_zone}: name"), given.name)?.unwrap_or("");
+        let refuse = |what: &str| Failure::argument(ZONES, format!("{of_zone}: {what}"));
+        if !contact.zones.is_empty() {
+            return Err(refuse("its pairs are joined already: give those of each zone"));
+        }
+        let friction =
+            law::read(arrays, ZONES, (given.law, given.friction), 1).map_err(|failure| {
+                let failure = failure.explained(&of_zone);
+                // The numbers of a law stand in the structure too.
+                if failure.code() == -(ZONES + 1) { failure.at(ZONES) } else { failure }
+            })?;
+        if Law::of_number(friction.law().number()).is_none() {
+            return Err(refuse("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone"));
+        }
+        friction.check(contact.found.dim).map_err(|error| refuse(error.message().marked()))?;
+        let mut numbers = [friction.law().number(), 0.0, 0.0, 0.0];
+        numbers[1..].iter_mut().zip(friction.values()).for_each(|(own, given)| *own = *given);
+        Ok(Zone { name, contact, friction: numbers })
+    }
+
+    fn part(&self) -> ContactZone<'_> {
+        let [start, nodes] = &self.contact.slave_faces;
+        let slave = Faces { start, nodes };
+        ContactZone { name: self.name, contact: &self.contact.found, slave }
+    }
+}
+
+/// What the joined pairs hold of their zones.
+fn joined_zones(zones: &[Zone<'_>]) -> JoinedZones {
+    let summary = summary_of_zones(zones.iter().map(|zone| (zone.name, &zone.contact.found)));
+    let mut joined = JoinedZones { summary, starts: vec![0], ..JoinedZones::default() };
+    for zone in zones {
+        let pairs = zone.contact.arrays.count;
+        joined.names.push(zone.name.to_owned());
+        joined.starts.push(joined.starts[joined.starts.len() - 1] + pairs as i64);
+        joined.friction.extend(std::iter::repeat_n(zone.friction, pairs).flatten());
+    }
+    joined
+}
+
+impl SignoriniSurfacePairs {
+    /// Bytes that copies of the pairs and of their faces may take.
+    fn bytes(&self) -> usize {
+        let nodes = self.arrays.weights.len() + self.slave_faces[1].len();
+        OF_PAIR * (1 + self.arrays.count) + OF_NODE * nodes
+    }
+
+    /// The zones with their pairs: one without a name of pairs that were not joined.
+    fn zones(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
+        let alone = self.zones.is_empty().then_some(("contact", 0..self.arrays.count));
+        let ends = self.zones.starts.windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
+        alone.into_iter().chain(self.zones.names.iter().map(String::as_str).zip(ends))
+    }
+}

@@ -1,0 +1,150 @@
+//! Contact zones in one set of pairs, one zone after the other, and what each of them carries.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::fields::{PairResults, Resultant};
+use super::mesh::Faces;
+use super::pairs::{SurfacePairs, SurfaceReport};
+use crate::error::{Argument, Error, Message, index};
+
+/// A contact zone: its name, its pairs, and the slave faces that they were made of.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactZone<'a> {
+    /// The name, which no other zone has.
+    pub name: &'a str,
+    /// The pairs.
+    pub contact: &'a SurfacePairs,
+    /// The slave side.
+    pub slave: Faces<'a>,
+}
+
+/// What a zone carries.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ZoneSums {
+    /// Its resultant about the origin.
+    pub resultant: Resultant,
+    /// The largest pressure of a pair; 0 if none presses.
+    pub largest_pressure: f64,
+}
+
+/// Joins zones. A node may be slave in one zone and master in another, and a slave node of several zones by faces of its
+/// own in each. The lists of faces in the report, which count in each zone by themselves, are empty.
+///
+/// # Errors
+/// [`Argument::Pairs`]: no zone, a name that is empty or stands twice, zones of different dimensions or one of revolution
+/// among others, and a slave face of two zones of which both have the pair of a node: they would press on it twice.
+pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<SurfacePairs, Error> {
+    let refuse = |message: String| Err(Error::invalid(Argument::Pairs, message));
+    let Some(first) = zones.first() else { return refuse("there is no zone".into()) };
+    let mut joined = SurfacePairs {
+        dim: first.contact.dim,
+        axisymmetric: first.contact.axisymmetric,
+        ..SurfacePairs::default()
+    };
+    for (place, zone) in zones.iter().enumerate() {
+        let (name, contact) = (zone.name, zone.contact);
+        if name.is_empty() {
+            return refuse(format!("zone {} has no name", index(place)));
+        }
+        if zones[..place].iter().any(|other| other.name == name) {
+            return refuse(format!("two zones are named '{name}'"));
+        }
+        let named = |what: &str| format!("zone '{name}' {what} zone '{}'", first.name);
+        if contact.dim != joined.dim {
+            return refuse(named(&format!("is in {} dimensions, unlike", contact.dim)));
+        }
+        if contact.axisymmetric != joined.axisymmetric {
+            return refuse(named("is of revolution and not, or not and is, unlike"));
+        }
+        joined.pairs.extend(contact.pairs.iter().cloned());
+        joined.unpaired.extend(&contact.unpaired);
+        joined.report.add(&contact.report);
+    }
+    match shared_face(zones) {
+        Some(message) => refuse(message),
+        None => Ok(joined),
+    }
+}
+
+/// The words for a slave face of two zones of which both have the pair of a node.
+fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
+    let mut known: HashMap<Vec<usize>, Vec<(usize, usize)>> = HashMap::new();
+    let owns = |zone: usize, node: usize| {
+        zones[zone].contact.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok()
+    };
+    for (place, zone) in zones.iter().enumerate() {
+        for (face, ends) in zone.slave.start.windows(2).enumerate() {
+            let nodes = &zone.slave.nodes[ends[0]..ends[1]];
+            let mut key = nodes.to_vec();
+            key.sort_unstable();
+            let others = known.entry(key).or_default();
+            for &(other, other_face) in others.iter() {
+                let twice = |node: &&usize| owns(place, **node) && owns(other, **node);
+                if let Some(node) = nodes.iter().find(twice) {
+                    return Some(format!(
+                        "slave face {} of zone '{}' is slave face {} of zone '{}', and both have a pair of node {}: \
+                         pair it once, with the masters of both zones",
+                        index(face),
+                        zone.name,
+                        index(other_face),
+                        zones[other].name,
+                        index(node)
+                    ));
+                }
+            }
+            others.push((place, face));
+        }
+    }
+    None
+}
+
+/// What was found in zones, in a sentence for each.
+pub fn summary_of_zones<'a>(zones: impl Iterator<Item = (&'a str, &'a SurfacePairs)>) -> Message {
+    let parts = zones.map(|(name, contact)| format!("{name}: {}", contact.summary().marked()));
+    parts.collect::<Vec<_>>().join(". ").into()
+}
+
+impl SurfaceReport {
+    /// Adds what holds of another zone, but for its lists of faces.
+    fn add(&mut self, other: &SurfaceReport) {
+        self.search_distance = self.search_distance.max(other.search_distance);
+        self.slave_faces += other.slave_faces;
+        self.slave_area += other.slave_area;
+        self.covered_area += other.covered_area;
+        self.folded.extend(&other.folded);
+        self.not_opposed += other.not_opposed;
+        self.boxes_searched += other.boxes_searched;
+    }
+}
+
+impl SurfacePairs {
+    /// What some of the pairs carry.
+    ///
+    /// # Errors
+    /// As [`Self::resultant`].
+    pub fn sums_of(
+        &self,
+        pairs: Range<usize>,
+        results: &PairResults<'_>,
+    ) -> Result<ZoneSums, Error> {
+        let dim = self.dim;
+        let part = SurfacePairs {
+            dim,
+            pairs: self.pairs[pairs.clone()].to_vec(),
+            axisymmetric: self.axisymmetric,
+            ..SurfacePairs::default()
+        };
+        let of =
+            |values: &'_ [f64], each: usize| values[each * pairs.start..each * pairs.end].to_vec();
+        let (d, force) = (of(results.d, dim), of(results.force, dim));
+        let slip = results.reference_slip.map(|slip| of(slip, dim - 1));
+        let own = PairResults { gap: None, reference_slip: slip.as_deref(), d: &d, force: &force };
+        let pressure = |(pair, normal): (&super::SurfacePair, &f64)| -normal / pair.area;
+        let pressures = part.pairs.iter().zip(force.iter().step_by(dim)).map(pressure);
+        Ok(ZoneSums {
+            resultant: part.resultant(&own, &[0.0; 3][..dim])?,
+            largest_pressure: pressures.fold(0.0, f64::max),
+        })
+    }
+}
