@@ -315,7 +315,7 @@ module signorini
         integer(c_int32_t) :: normals = 0
         integer(c_int32_t) :: rims = 0
         integer(c_int32_t) :: axisymmetric = 0
-        integer(c_int32_t) :: reserved = 0
+        integer(c_int32_t) :: fitted = 0
         real(c_double) :: time_limit = 0
         type(c_funptr) :: progress = c_null_funptr
         type(c_ptr) :: user = c_null_ptr
@@ -1749,7 +1749,7 @@ contains
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
-    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, slave_shape and the fields after it,
+    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, fitted, slave_shape and the fields after it,
     ! time_limit, progress and user; an argument that is present comes before it. Its lists and index_base
     ! are not read.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &

@@ -167,15 +167,20 @@ struct signorini_surface_settings {
      * Default 0.
      */
     int32_t axisymmetric;
-    int32_t reserved;                       /**< 0. */
+    /**
+     * Nonzero: a side without slave_shape or master_shape is curved through its nodes, by normals
+     * that are fitted to the nodes around; where faces turn by more than 35 degrees it stays sharp.
+     * Default 0.
+     */
+    int32_t fitted;
     double time_limit; /**< Most seconds of wall time; default 0, and infinity: no limit. */
     /** Progress callback as in signorini_settings, called often; default NULL. */
     signorini_progress_fn progress;
     void *user;                             /**< First argument of progress; default NULL. */
     /**
      * The true shape of the slave side, of which its faces are facets, for dual mortar; default
-     * NULL: its faces. Gaps are measured to it, and rows stay those of the faces. These tell on
-     * which side the body is: hollow has no say.
+     * NULL: its faces, or as fitted says. Gaps are measured to it, and rows stay those of the
+     * faces. These tell on which side the body is: hollow has no say.
      */
     const signorini_obstacle *slave_shape;
     const signorini_obstacle *master_shape; /**< That of the master side. */

@@ -76,8 +76,10 @@ pub struct SignoriniSurfaceSettings {
     /// and loads of whole rings too. The axis is a plane of symmetry without being named.
     /// Default 0.
     pub axisymmetric: i32,
-    /// 0.
-    pub reserved: i32,
+    /// Nonzero: a side without slave_shape or master_shape is curved through its nodes, by normals
+    /// that are fitted to the nodes around; where faces turn by more than 35 degrees it stays sharp.
+    /// Default 0.
+    pub fitted: i32,
     /// Most seconds of wall time; default 0, and infinity: no limit.
     pub time_limit: f64,
     /// Progress callback as in signorini_settings, called often; default NULL.
@@ -85,8 +87,8 @@ pub struct SignoriniSurfaceSettings {
     /// First argument of progress; default NULL.
     pub user: *mut c_void,
     /// The true shape of the slave side, of which its faces are facets, for dual mortar; default
-    /// NULL: its faces. Gaps are measured to it, and rows stay those of the faces. These tell on
-    /// which side the body is: hollow has no say.
+    /// NULL: its faces, or as fitted says. Gaps are measured to it, and rows stay those of the
+    /// faces. These tell on which side the body is: hollow has no say.
     pub slave_shape: *const SignoriniObstacle,
     /// That of the master side.
     pub master_shape: *const SignoriniObstacle,
@@ -179,8 +181,8 @@ impl SignoriniSurfaceSettings {
         let symmetry = given.symmetry(arrays, position)?;
         let axisymmetric = given.axisymmetric != 0;
         let shapes = [
-            shape(arrays, (position, "settings: slave_shape"), dim, given.slave_shape)?,
-            shape(arrays, (position, "settings: master_shape"), dim, given.master_shape)?,
+            given.shape(arrays, (position, "settings: slave_shape"), dim, given.slave_shape)?,
+            given.shape(arrays, (position, "settings: master_shape"), dim, given.master_shape)?,
         ];
         let SignoriniSurfaceSettings { close_within, clearance, .. } = given;
         let settings = SurfaceSettings {
@@ -194,7 +196,6 @@ impl SignoriniSurfaceSettings {
             close_within,
             clearance,
         };
-        structures::check_reserved(position, "settings", given.reserved)?;
         let SignoriniSurfaceSettings { time_limit, progress, user, .. } = given;
         // Written so that NaN is refused.
         if !(time_limit >= 0.0) {
@@ -203,6 +204,22 @@ impl SignoriniSurfaceSettings {
         }
         let numbering = Numbering { base, per_node, listed };
         Ok(ParsedSurfaceSettings { settings, numbering, time_limit, progress, user })
+    }
+
+    /// The true shape of a side.
+    fn shape(
+        &self,
+        arrays: &mut Arrays<'_>,
+        (position, name): (i32, &str),
+        dim: usize,
+        pointer: *const SignoriniObstacle,
+    ) -> Result<TrueShape, Failure> {
+        if pointer.is_null() {
+            let fitted = self.fitted != 0;
+            return Ok(if fitted { TrueShape::Fitted } else { TrueShape::Facets });
+        }
+        let given = arrays.whole(position, name, pointer)?;
+        Ok(TrueShape::Exact(given.shape((position, name), dim)?))
     }
 
     /// The planes of symmetry.
@@ -225,20 +242,6 @@ impl SignoriniSurfaceSettings {
         };
         axes.iter().zip(places).map(plane).collect()
     }
-}
-
-/// The true shape of a side.
-fn shape(
-    arrays: &mut Arrays<'_>,
-    (position, name): (i32, &str),
-    dim: usize,
-    pointer: *const SignoriniObstacle,
-) -> Result<TrueShape, Failure> {
-    if pointer.is_null() {
-        return Ok(TrueShape::Facets);
-    }
-    let given = arrays.whole(position, name, pointer)?;
-    Ok(TrueShape::Exact(given.shape((position, name), dim)?))
 }
 
 numbers! {

@@ -12,6 +12,7 @@ pub(crate) mod factor;
 pub(crate) mod free_motions;
 pub(crate) mod gmres;
 pub(crate) mod last_case;
+pub(crate) mod least_squares;
 pub(crate) mod matrix;
 pub(crate) mod nnls;
 pub(crate) mod packed;

@@ -61,7 +61,7 @@ pub(super) fn pairs<'a>(
     };
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let SurfaceSettings { normals, rims, .. } = *settings;
-    let shapes = TrueSides::new([slave, master], dim, &settings.shapes)?;
+    let shapes = TrueSides::new([slave, master], dim, &settings.shapes, watch)?;
     let mut search = Search { candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::new();
     for at in 0..slave.count() {
@@ -170,7 +170,7 @@ fn cover(
     }
     let mut covered = polynomials.project(face.kind, &overlaps.points, &parts);
     if let Some(shapes) = shapes {
-        covered.gaps = polynomials.fit(&shapes.gaps(face, &overlaps.points, &parts));
+        covered.gaps = polynomials.fit(&shapes.gaps((at, face), &overlaps.points, &parts));
     }
     let wholly = cover >= 1.0 - SAME_COVER && !planes.touch_axis(face);
     Ok(Some(CoveredFace { covered, wholly }))

@@ -53,6 +53,9 @@ pub enum TrueShape {
     Facets,
     /// A shape near all its nodes. Its faces tell where the body is: `hollow` and `outward` have no say.
     Exact(Obstacle),
+    /// Curves and patches through its nodes, with normals that are fitted to the nodes around. Edges at which faces turn by
+    /// more than 35 degrees stay sharp.
+    Fitted,
 }
 
 /// Settings of the pairing.

@@ -5,13 +5,16 @@
 //! `g_j = (1 / D_j) Σ w_q ψ_j(q) g(q)`, where `g(q)` leads from the true point of the slave along the true normal there to
 //! the true shape of the master.
 
+use super::curved_patch::Patch;
 use super::exact_shape::ExactShape;
 use super::face::Face;
+use super::fitted_normals::{Fitted, fitted};
 use super::mesh::Side;
 use super::overlap::Meeting;
 use super::projected_shapes::Opposite;
 use super::settings::TrueShape;
 use super::shape::Local;
+use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, axis, unit};
 
@@ -30,6 +33,14 @@ const LEAST_FALL: f64 = 0.2;
 enum TrueSide {
     Facets,
     Exact(ExactShape),
+    Fitted(Fitted),
+}
+
+/// A face of a side with a shape.
+enum Over<'a> {
+    Face(&'a Face<'a>),
+    Exact(&'a Face<'a>, &'a ExactShape),
+    Patch(Patch),
 }
 
 /// Slave and master with their true shapes.
@@ -47,12 +58,14 @@ impl<'a> TrueSides<'a> {
         [slave, master]: [&'a Side<'a>; 2],
         dim: usize,
         shapes: &[TrueShape; 2],
+        watch: &mut Watch<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
         if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
             return Ok(None);
         }
-        let side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
+        let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::Facets),
+            TrueShape::Fitted => Ok(TrueSide::Fitted(fitted(side, watch)?)),
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
@@ -69,7 +82,7 @@ impl<'a> TrueSides<'a> {
     /// The size of lengths that gaps are differences of, beside the places of nodes.
     pub(super) fn size(&self) -> f64 {
         let size = |side: &TrueSide| match side {
-            TrueSide::Facets => 0.0,
+            TrueSide::Facets | TrueSide::Fitted(_) => 0.0,
             TrueSide::Exact(shape) => shape.size(),
         };
         self.sides.iter().map(size).sum()
@@ -78,18 +91,19 @@ impl<'a> TrueSides<'a> {
     /// The gaps at the points of a slave face.
     pub(super) fn gaps(
         &self,
-        face: &Face<'_>,
+        (at, face): (usize, &Face<'_>),
         points: &[Meeting],
         parts: &[Opposite<'_>],
     ) -> Vec<f64> {
-        let size = face.size();
+        let (size, own) = (face.size(), self.sides[0].over(at, face));
         let of_part = |part: &Opposite<'_>| {
             let opposite = self.master.face(part.at);
+            let opposite = self.sides[1].over(part.at, &opposite);
             let gap = |point: &Meeting| {
-                let from = self.sides[0].point(face, point.slave);
-                match &self.sides[1] {
-                    TrueSide::Facets => along_to_patch(from, &opposite, point.master),
-                    TrueSide::Exact(shape) => along_to_shape(from, shape, size),
+                let from = own.point(point.slave);
+                match &opposite {
+                    Over::Exact(_, shape) => along_to_shape(from, shape, size),
+                    other => along_to_patch(from, |at| other.at(at), point.master),
                 }
             };
             points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
@@ -116,12 +130,34 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
 }
 
 impl TrueSide {
-    /// The true point near a point of a face, and the unit normal there, outward as that of the face.
-    fn point(&self, face: &Face<'_>, at: Local) -> (Vector3, Vector3) {
-        let (x, outward) = (face.position(at), unit(face.outward(at)).unwrap_or_default());
+    fn over<'s>(&'s self, at: usize, face: &'s Face<'_>) -> Over<'s> {
         match self {
-            TrueSide::Facets => (x, outward),
-            TrueSide::Exact(shape) => match shape.distance(x) {
+            TrueSide::Facets => Over::Face(face),
+            TrueSide::Exact(shape) => Over::Exact(face, shape),
+            TrueSide::Fitted(normals) => Over::Patch(Patch::new(face, &normals[at])),
+        }
+    }
+}
+
+impl Over<'_> {
+    /// The point of the face, or of its patch, with its derivatives; across a line that along the third axis.
+    fn at(&self, at: Local) -> (Vector3, [Vector3; 2]) {
+        match self {
+            Over::Face(face) | Over::Exact(face, _) => {
+                let [a, b] = face.derivatives(at);
+                (face.position(at), [a, if face.kind.is_line() { axis(2) } else { b }])
+            }
+            Over::Patch(patch) => patch.at(at),
+        }
+    }
+
+    /// The true point near a point of the face, and the unit normal there, outward as that of the face.
+    fn point(&self, at: Local) -> (Vector3, Vector3) {
+        let (x, [a, b]) = self.at(at);
+        let outward = unit(a.cross(&b)).unwrap_or_default();
+        match self {
+            Over::Face(_) | Over::Patch(_) => (x, outward),
+            Over::Exact(_, shape) => match shape.distance(x) {
                 Some((distance, gradient)) => {
                     let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };
                     (x - distance * gradient, sign * gradient)
@@ -147,14 +183,16 @@ fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64
     along
 }
 
-/// The distance from a point along a normal to a face or its continuation.
-fn along_to_patch((x, normal): (Vector3, Vector3), face: &Face<'_>, mut at: Local) -> f64 {
+/// The distance from a point along a normal to a face or its patch, or their continuation.
+fn along_to_patch(
+    (x, normal): (Vector3, Vector3),
+    opposite: impl Fn(Local) -> (Vector3, [Vector3; 2]),
+    mut at: Local,
+) -> f64 {
     let mut along = 0.0;
     for _ in 0..STEPS {
-        let from = face.position(at) - x;
-        let [a, b] = face.derivatives(at);
-        let b = if face.kind.is_line() { axis(2) } else { b };
-        let across = a.cross(&b);
+        let (place, [a, b]) = opposite(at);
+        let (from, across) = (place - x, a.cross(&b));
         along = across.dot(&from) / across.dot(&normal);
         let rest = along * normal - from;
         let (by_a, by_b) = (b.cross(&across), across.cross(&a));

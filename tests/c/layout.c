@@ -233,7 +233,7 @@ FIELD(signorini_surface_settings, symmetry_at, double *, 48);
 FIELD(signorini_surface_settings, normals, int32_t, 56);
 FIELD(signorini_surface_settings, rims, int32_t, 60);
 FIELD(signorini_surface_settings, axisymmetric, int32_t, 64);
-FIELD(signorini_surface_settings, reserved, int32_t, 68);
+FIELD(signorini_surface_settings, fitted, int32_t, 68);
 FIELD(signorini_surface_settings, time_limit, double, 72);
 FIELD(signorini_surface_settings, progress, signorini_progress_fn, 80);
 FIELD(signorini_surface_settings, user, void *, 88);

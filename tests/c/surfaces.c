@@ -404,6 +404,32 @@ static void true_shapes(void)
     CHECK_TEXT(signorini_last_error(), "master_shape: faces are no shape");
     circles[1].kind = SIGNORINI_OBSTACLE_SPHERE;
     settings.master_shape = NULL;
+    settings.slave_shape = NULL;
+    settings.close_within = settings.clearance = 0;
+    settings.fitted = 1;
+    /* Four chords of up to 21 degrees inside of six: arcs are off by the sixth power of half of that. */
+    const double circle[7][2] = {{-4, 3}, {-3, 4}, {-1.4, 4.8}, {0, 5}, {1.4, 4.8}, {3, 4}, {4, 3}};
+    int64_t inside[4][2], outside[6][2];
+    double more[12][2];
+    for (int i = 0; i < 7; i++)
+        for (int axis = 0; axis < 2; axis++) {
+            more[i][axis] = 1.05 * circle[i][axis];
+            if (i < 5)
+                more[7 + i][axis] = circle[1 + i][axis];
+        }
+    for (int i = 0; i < 6; i++) {
+        outside[i][0] = i;
+        outside[i][1] = i + 1;
+        if (i < 4) {
+            inside[i][0] = 8 + i;
+            inside[i][1] = 7 + i;
+        }
+    }
+    signorini_faces within = lines(4, inside[0]), around = lines(6, outside[0]);
+    CHECK_STATUS(signorini_surface_pair(2, 12, more[0], &within, &around, &settings, &contact), 0);
+    for (int pair = 0; pair < 5; pair++)
+        CHECK(fabs(surface_data(contact).gaps[pair] - 0.25) < 5 * pow(0.18, 6));
+    signorini_surface_free(contact);
     settings.close_within = -1;
     CHECK_STATUS(signorini_surface_pair(2, 4, x, &slave, &master, &settings, &contact), -6);
     CHECK_TEXT(signorini_last_error(), "close_within is -1");
@@ -535,8 +561,9 @@ static void refusals(void)
     settings.time_limit = -1;
     refused(plane_nodes, &slave, &master, &settings, 6, "time_limit is -1");
     settings = defaults();
-    settings.reserved = 1;
-    refused(plane_nodes, &slave, &master, &settings, 6, "reserved is 1");
+    settings.fitted = 1;
+    settings.pairing = SIGNORINI_PAIRING_NODE_TO_SURFACE;
+    refused(plane_nodes, &slave, &master, &settings, 6, "true shapes are for dual mortar");
     settings = defaults();
     settings.dofs_per_node = 1;
     refused(plane_nodes, &slave, &master, &settings, 6, "dofs_per_node is 1");

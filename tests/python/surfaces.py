@@ -140,6 +140,11 @@ class Pairs(unittest.TestCase):
                      for slave_shape, master_shape, within in ((*shapes, 0), (None, None, 0), (*shapes, 0.1))]
             for contact, gap in zip(found, (0.01, 1.01 * np.cos(np.radians(40)) - np.cos(np.radians(30)), 0.0)):
                 np.testing.assert_allclose(contact.gaps, [gap - 0.5] * 2 ** (dim - 1), atol=1e-12, err_msg=kind)
+        around = np.radians(np.arange(0, 181, 20))
+        circles = np.concatenate([r * np.column_stack([np.cos(around), np.sin(around)]) for r in (1.0, 1.01)])
+        lines = np.column_stack([np.arange(9), np.arange(1, 10)])
+        contact = signorini.pair_surfaces(circles, lines[1:-1], lines[:, ::-1] + 10, fitted=True)
+        np.testing.assert_allclose(contact.gaps, 0.01, atol=1e-5)
         with self.assertRaisesRegex(TypeError, "is no shape"):
             signorini.pair_surfaces(nodes, slave, master, slave_shape=3.0)
 

@@ -27,7 +27,8 @@ const CIRCLE: TrueShape =
     TrueShape::Exact(Obstacle::Sphere { centre: [0.0; 3], radius: RADIUS, hollow: false });
 
 /// True shapes of slave and master.
-const SHAPES: [[TrueShape; 2]; 1] = [[CIRCLE; 2]];
+const SHAPES: [[TrueShape; 2]; 3] =
+    [[CIRCLE; 2], [TrueShape::Fitted; 2], [CIRCLE, TrueShape::Fitted]];
 
 /// The pressure of the fit, in plane strain.
 fn lame() -> f64 {

@@ -147,7 +147,7 @@ class SurfaceSettings(ctypes.Structure):
         ("struct_size", u32), ("pairing", i32), ("search_distance", real), ("index_base", i32),
         ("dofs_per_node", i32), ("node_dofs", address), ("symmetry_planes", i64),
         ("symmetry_axes", address), ("symmetry_at", address), ("normals", i32), ("rims", i32),
-        ("axisymmetric", i32), ("reserved", i32), ("time_limit", real), ("progress", Callback),
+        ("axisymmetric", i32), ("fitted", i32), ("time_limit", real), ("progress", Callback),
         ("user", address), ("slave_shape", address), ("master_shape", address),
         ("close_within", real), ("clearance", real),
     ]

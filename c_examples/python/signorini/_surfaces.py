@@ -70,8 +70,8 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
-                  axisymmetric=False, slave_shape=None, master_shape=None, close_within=0.0,
-                  clearance=0.0, time_limit=0.0, progress=None):
+                  axisymmetric=False, slave_shape=None, master_shape=None, fitted=False,
+                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -93,6 +93,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     of whole rings, and so must be stiffness and loads.
     slave_shape, master_shape: the true shape of a side, of which its faces are facets, as a Plane, Sphere,
     Cylinder, Cone or Torus; None: its faces. Gaps are measured to it; hollow has no say. By dual mortar.
+    fitted: sides without a shape are curved through their nodes, by normals fitted to the nodes around; edges of more
+    than 35 degrees stay sharp.
     close_within: gaps of at most this size become zero.  clearance: is added to every gap then; negative: an
     interference.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
@@ -101,23 +103,23 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        (slave_shape, master_shape, close_within, clearance), time_limit, progress)
+                        (slave_shape, master_shape, fitted, close_within, clearance), time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
                   dofs_per_node=0, symmetry=(), normals="averaged", rims="fold", axisymmetric=False,
-                  slave_shape=None, master_shape=None, close_within=0.0, clearance=0.0,
+                  slave_shape=None, master_shape=None, fitted=False, close_within=0.0, clearance=0.0,
                   time_limit=0.0, progress=None):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder, Cone, Torus or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
-    symmetry, normals, rims, slave_shape and master_shape are read for RigidFaces alone: a shape has
+    symmetry, normals, rims, fitted, slave_shape and master_shape are read for RigidFaces alone: a shape has
     normals of its own.
     """
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
-                        rims, axisymmetric, (slave_shape, master_shape, close_within, clearance),
+                        rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
                         time_limit, progress)
 
 
@@ -146,7 +148,7 @@ class SurfacePairs:
             normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
             axisymmetric=bool(axisymmetric), time_limit=float(time_limit),
         )
-        *shapes, settings.close_within, settings.clearance = gaps
+        *shapes, settings.fitted, settings.close_within, settings.clearance = gaps
         shapes = [shape and _shape(shape) for shape in shapes]
         settings.slave_shape, settings.master_shape = (
             shape and ctypes.addressof(shape) for shape in shapes)

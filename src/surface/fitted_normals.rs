@@ -1,0 +1,178 @@
+//! Normals at nodes for curving faces, fitted to the places of nodes around: the mean of the faces' normals is wrong by as
+//! much as divisions differ, which at 64 divisions is more than an interference of a thousandth.
+//!
+//! In the plane tangents of chords, each by the inverse of its length: exact on a circle, whatever the divisions. In space a
+//! quadric by least squares through the node, over the faces around it and those around these if they have few nodes, in
+//! the frame of the normal, twice. Neither looks across an edge at which faces turn sharply.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::face::Face;
+use super::mesh::Side;
+use super::normals::direction;
+use super::plane;
+use super::shape::MOST_NODES;
+use super::watch::Watch;
+use crate::error::Error;
+use crate::linalg::least_squares::least_squares;
+use crate::linalg::vector3::{Vector3, axis, unit};
+
+/// Neighbours are parts of one smooth surface if the cosine between their normals is above this: 35 degrees, as 13
+/// divisions of a circle whose nodes are shifted by a fifth have them.
+const SMOOTH: f64 = 0.82;
+
+/// Fewer nodes than this around a node determine a quadric badly.
+const FEW: usize = 9;
+
+/// Fits, each in the frame of the normal before.
+const TURNS: usize = 2;
+
+/// Unit normals of each face at its nodes.
+pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
+
+/// # Errors
+/// What ends the watch.
+pub(super) fn fitted(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
+    if side.dim == 2 { on_lines(side, watch) } else { on_faces(side, watch) }
+}
+
+/// The nodes of a line in the order in which it runs through them.
+fn along(face: &Face<'_>) -> Vec<usize> {
+    [0, 2, 1].into_iter().filter(|&i| i < face.kind.nodes()).collect()
+}
+
+/// The neighbours of a node along its line: the chord that ends there, and the one that begins there.
+type Chords = [Option<Vector3>; 2];
+
+fn on_lines(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
+    let mut chords: HashMap<usize, Chords> = HashMap::new();
+    for at in 0..side.count() {
+        watch.goes_on()?;
+        let face = side.face(at);
+        for ends in along(&face).windows(2) {
+            let chord = face.x[ends[1]] - face.x[ends[0]];
+            chords.entry(face.nodes[ends[0]]).or_default()[1] = Some(chord);
+            chords.entry(face.nodes[ends[1]]).or_default()[0] = Some(chord);
+        }
+    }
+    let inner = |node: &usize| match chords[node] {
+        [Some(a), Some(b)] if a.dot(&b) > SMOOTH * a.norm() * b.norm() => {
+            unit(a / a.norm_squared() + b / b.norm_squared())
+        }
+        _ => None,
+    };
+    let normals = |at: usize| {
+        let face = side.face(at);
+        let mut normals = [Vector3::zeros(); MOST_NODES];
+        let order = along(&face);
+        for (place, &i) in order.iter().enumerate() {
+            // At an end the tangent of the arc that the neighbour's tangent determines.
+            let beside = order[if place == 0 { 1 } else { place - 1 }];
+            let chord = unit(face.x[i] - face.x[beside]).unwrap_or_default();
+            let mirrored = |t: Vector3| 2.0 * chord.dot(&t) * chord - t;
+            let tangent = inner(&face.nodes[i])
+                .or_else(|| inner(&face.nodes[beside]).map(mirrored))
+                .unwrap_or(if place == 0 { -chord } else { chord });
+            normals[i] = tangent.cross(&axis(2));
+        }
+        normals
+    };
+    Ok((0..side.count()).map(normals).collect())
+}
+
+/// The smooth surface that each face is a part of, by its first face.
+fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<usize>, Error> {
+    let mut first: Vec<usize> = (0..side.count()).collect();
+    let root = |first: &[usize], mut face: usize| {
+        while first[face] != face {
+            face = first[face];
+        }
+        face
+    };
+    let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
+    for at in 0..side.count() {
+        watch.goes_on()?;
+        let face = side.face(at);
+        let corners = face.kind.corners();
+        let normal = |i: usize| unit(face.outward(face.kind.places()[i])).unwrap_or_default();
+        for i in 0..corners {
+            let ends = [i, (i + 1) % corners];
+            let [a, b] = ends.map(|i| face.nodes[i]);
+            let [at_a, at_b] = ends.map(normal);
+            let (key, normals) =
+                if a < b { ([a, b], [at_a, at_b]) } else { ([b, a], [at_b, at_a]) };
+            let Some((other, others)) = edges.insert(key, (at, normals)) else { continue };
+            if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
+                let [a, b] = [root(&first, at), root(&first, other)];
+                first[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    for face in 0..first.len() {
+        first[face] = first[first[face]];
+    }
+    Ok(first)
+}
+
+fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
+    let surface = surfaces(side, watch)?;
+    // The faces at each node of a smooth surface.
+    let mut around: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
+    for (at, &surface) in surface.iter().enumerate() {
+        for &node in side.face(at).nodes {
+            around.entry((surface, node)).or_default().push(at);
+        }
+    }
+    let ring = |surface: usize, nodes: &BTreeSet<usize>| {
+        let faces = nodes.iter().flat_map(|&node| &around[&(surface, node)]);
+        faces.flat_map(|&at| side.face(at).nodes.to_vec()).collect::<BTreeSet<usize>>()
+    };
+    let mut normals = HashMap::with_capacity(around.len());
+    for (&(surface, node), faces) in &around {
+        watch.goes_on()?;
+        let mut near = ring(surface, &BTreeSet::from([node]));
+        if near.len() < FEW {
+            near = ring(surface, &near);
+        }
+        near.remove(&node);
+        let from: Vec<Vector3> =
+            near.iter().map(|&other| side.position(other) - side.position(node)).collect();
+        normals.insert((surface, node), fit(mean(side, faces, node), &from));
+    }
+    let of_face = |(at, &surface): (usize, &usize)| {
+        let mut found = [Vector3::zeros(); MOST_NODES];
+        let nodes = side.face(at).nodes;
+        found.iter_mut().zip(nodes).for_each(|(n, &node)| *n = normals[&(surface, node)]);
+        found
+    };
+    Ok(surface.iter().enumerate().map(of_face).collect())
+}
+
+/// The mean normal at a node of some faces; that of the first if they cancel.
+fn mean(side: &Side<'_>, faces: &[usize], node: usize) -> Vector3 {
+    let normal = |&at: &usize| {
+        let face = side.face(at);
+        let place = face.nodes.iter().position(|&other| other == node).unwrap_or_default();
+        unit(face.outward(face.kind.places()[place])).unwrap_or_default()
+    };
+    let sum = faces.iter().map(normal).sum();
+    direction(sum, faces.len() as f64).unwrap_or_else(|| normal(&faces[0]))
+}
+
+/// The normal of the quadric through the origin that is nearest to some places; the given one if they tell of another side.
+fn fit(mean: Vector3, places: &[Vector3]) -> Vector3 {
+    let size = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let weights: Vec<f64> = places.iter().map(|x| size / x.norm()).collect();
+    let mut normal = mean;
+    for _ in 0..TURNS {
+        let across = plane::tangents(3, normal);
+        let [a, b] = across.map(|t| places.iter().map(|x| t.dot(x) / size).collect::<Vec<f64>>());
+        let heights: Vec<f64> = places.iter().map(|x| normal.dot(x) / size).collect();
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect();
+        let squares = [product(&a, &a), product(&a, &b), product(&b, &b)];
+        let columns = [a, b].into_iter().chain(squares).map(|column| product(&column, &weights));
+        let slopes = least_squares(columns.collect(), &product(&heights, &weights));
+        normal = unit(normal - slopes[0] * across[0] - slopes[1] * across[1]).unwrap_or(normal);
+    }
+    if normal.dot(&mean) > SMOOTH { normal } else { mean }
+}
