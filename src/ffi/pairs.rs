@@ -21,7 +21,7 @@ use crate::reduce::ContactPairs;
 /// degrees of freedom.
 ///
 /// A node may stand in any number of pairs, as slave and master, and be fixed. Where a pair is held
-/// along its normal or a tangent, d and F are zero along it. Pairs may depend on each other, as
+/// along its normal or a tangent, d and F are zero there. Pairs may depend on each other, as
 /// those of a node on two planes: then contact forces are not unique.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -43,7 +43,8 @@ pub struct SignoriniPairs {
     /// Normal of each pair, dim entries, outward from the slave's body, of any length.
     pub normals: *const f64,
     /// First tangent of each pair, dim entries, orthogonal to the normal to 1e-5; t2 = n x t1. NULL:
-    /// chosen. 2D: the normal turned by +90 degrees. 3D: e x n, e the first axis most across n.
+    /// chosen. 2D: n turned by +90 degrees. 3D: as supports hold, else e x n, e the first axis most
+    /// across n.
     pub tangents: *const f64,
     /// General rows: start of each pair's nodes, as master_start; else NULL.
     pub row_start: *const i64,

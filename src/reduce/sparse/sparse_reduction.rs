@@ -93,6 +93,7 @@ impl SparseReduction {
         let own = dependent.is_none() && rows.have_own_slaves;
         (control.ask)(0.0, 0)?;
         let contact_forces = contact_forces(matrix.size, &rows, &frames).map_err(memory)?;
+        drop(rows);
         let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
         let mut asked = Asked::new(control.ask);
         let free = variables.free();
