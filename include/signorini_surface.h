@@ -324,7 +324,11 @@ typedef struct signorini_contact_zone signorini_contact_zone;
 /** A contact zone for signorini_surface_join. */
 struct signorini_contact_zone {
     uint32_t struct_size;                   /**< sizeof(signorini_contact_zone). */
-    int32_t law; /**< SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR. */
+    /**
+     * SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR. A tie closes the gaps that you
+     * hand over: 0 ties surfaces where they stand.
+     */
+    int32_t law;
     const signorini_surface_pairs *contact; /**< Its pairs. */
     const char *name;                       /**< Its name, UTF-8, which no other zone has. */
     /** The parameters of the law, one set for all of its pairs; NULL if it has none. */

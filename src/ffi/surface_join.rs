@@ -22,7 +22,8 @@ use crate::surface::{ContactZone, Faces, ZoneSums, join_zones, summary_of_zones}
 pub struct SignoriniContactZone {
     /// sizeof(signorini_contact_zone).
     pub struct_size: u32,
-    /// SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR.
+    /// SIGNORINI_LAW_... of its pairs, but for SIGNORINI_LAW_BY_PAIR. A tie closes the gaps that you
+    /// hand over: 0 ties surfaces where they stand.
     pub law: i32,
     /// Its pairs.
     pub contact: *const SignoriniSurfacePairs,

@@ -20,7 +20,7 @@ enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34, CUBE = 8 
 struct world {
     chain plane, space, small, loose;
     lattice cube;
-    double *ellipses, *cohesion, *more;
+    double *ellipses, *cohesion, *ties, *more;
     double *lcp, q[2 * PLANE], w[2 * PLANE], z[2 * PLANE];
     struct brick_mesh *mesh;
     int64_t lower[64][4], upper[64][4], fixed[MOST_DOFS];
@@ -96,12 +96,17 @@ static struct world *world_new(void)
     for (int64_t i = 0; i < world->loose.n; i++) world->loose.f[i] = i % 2 ? 0 : -1;
     world->ellipses = chain_numbers(3 * SPACE);
     world->cohesion = chain_numbers(3 * PLANE);
+    world->ties = chain_numbers(4 * PLANE);
     for (int pair = 0; pair < SPACE; pair++) {
         world->ellipses[3 * pair] = 0.2;
         world->ellipses[3 * pair + 1] = 0.4;
         world->ellipses[3 * pair + 2] = 0.3;
     }
     for (int pair = 0; pair < PLANE; pair++) {
+        double *own = world->ties + 4 * pair;
+        own[0] = pair % 4 ? SIGNORINI_LAW_COULOMB : SIGNORINI_LAW_TIED;
+        own[1] = pair % 4 ? 0.3 : 0;
+        own[2] = own[3] = 0;
         world->cohesion[3 * pair] = 0.3;
         world->cohesion[3 * pair + 1] = 0.1;
         world->cohesion[3 * pair + 2] = 0.05;
@@ -127,6 +132,7 @@ static void world_free(struct world *world)
     chain_free(&world->loose);
     free(world->ellipses);
     free(world->cohesion);
+    free(world->ties);
     free(world->more);
     lattice_free(&world->cube);
     brick_mesh_free(world->mesh);
@@ -165,6 +171,7 @@ FLAT(plane_newton, plane, SIGNORINI_METHOD_NEWTON, SIGNORINI_LAW_COULOMB, w->pla
 FLAT(plane_path, plane, SIGNORINI_METHOD_PATH, SIGNORINI_LAW_COULOMB, w->plane.mu, 0, 0)
 FLAT(plane_tresca, plane, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_TRESCA, w->plane.mu, 0, 0)
 FLAT(plane_cohesive, plane, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COHESIVE, w->cohesion, 0, 0)
+FLAT(plane_tied, plane, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_BY_PAIR, w->ties, 0, 0)
 FLAT(plane_others, plane, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->plane.mu, 0, 1)
 FLAT(plane_proof, plane, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->plane.mu, 1, 0)
 FLAT(space_auto, space, SIGNORINI_METHOD_AUTO, SIGNORINI_LAW_COULOMB, w->space.mu, 0, 0)
@@ -627,6 +634,7 @@ static const struct scenario scenarios[] = {
     {"plane, path", plane_path, 0, 0},
     {"plane, Tresca", plane_tresca, 0, 0},
     {"plane, cohesion", plane_cohesive, 0, 0},
+    {"plane, ties", plane_tied, 0, 0},
     {"plane, other solutions", plane_others, 0, 0},
     {"plane, proof", plane_proof, 0, 0},
     {"space, auto", space_auto, 0, 0},

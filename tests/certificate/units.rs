@@ -168,6 +168,18 @@ fn units_do_not_matter_to_laws_by_pair() {
 }
 
 #[test]
+fn units_do_not_matter_to_ties() {
+    check(Method::Auto, |rng, pairs| {
+        let mut numbers = mixed(rng, (2, pairs), 0.3).values().to_vec();
+        numbers
+            .chunks_exact_mut(4)
+            .step_by(3)
+            .for_each(|own| own.copy_from_slice(&[7.0, 0.0, 0.0, 0.0]));
+        Law::ByPair(numbers)
+    });
+}
+
+#[test]
 fn units_do_not_matter_to_nested_sor() {
     check(Method::SorNested, |rng, pairs| coulomb(rng, pairs, 0.3));
 }

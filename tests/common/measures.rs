@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use signorini::Solution;
 
 use super::dense::{difference, dot, norm, product};
-use super::problems::Case;
+use super::problems::{Case, Law};
 
 /// The motion that proves that there is no equilibrium.
 pub fn motion(solution: &Solution) -> &[f64] {
@@ -103,6 +103,12 @@ pub fn flaw_of_escape(case: &Case, r: &[f64]) -> Option<String> {
     for pair in 0..case.pairs {
         let i = case.dim * pair;
         let slide = norm(&r[i + 1..i + case.dim]);
+        if matches!(case.law.own(pair), Law::Tied) {
+            if case.gap[pair].is_finite() && r[i].hypot(slide) * root[i] > ZERO * size {
+                return Some(format!("it moves the tie {pair}"));
+            }
+            continue;
+        }
         let [mu, b, a] = case.law.of(pair);
         let lift = mu * slide;
         resisted += (b - mu * a) * slide - a * r[i];

@@ -18,6 +18,8 @@ pub enum Law {
     Collinear(Vec<f64>),
     /// The number of its own law for each pair, and three numbers, those that this law has and zeros.
     ByPair(Vec<f64>),
+    /// No relative motion; no numbers.
+    Tied,
 }
 
 impl Law {
@@ -30,6 +32,7 @@ impl Law {
             Law::Orthotropic(numbers) => FrictionLaw::Orthotropic(numbers),
             Law::Collinear(numbers) => FrictionLaw::OrthotropicCollinear(numbers),
             Law::ByPair(numbers) => FrictionLaw::ByPair(numbers),
+            Law::Tied => FrictionLaw::Tied,
         }
     }
 
@@ -46,6 +49,7 @@ impl Law {
             Law::Orthotropic(_) => Law::Orthotropic(values),
             Law::Collinear(_) => Law::Collinear(values),
             Law::ByPair(_) => Law::ByPair(values),
+            Law::Tied => Law::Tied,
         }
     }
 
@@ -55,6 +59,7 @@ impl Law {
             Law::Coulomb(_) | Law::Tresca(_) => 1,
             Law::Cohesive(_) | Law::Orthotropic(_) | Law::Collinear(_) => 3,
             Law::ByPair(_) => 4,
+            Law::Tied => 0,
         }
     }
 
@@ -68,6 +73,7 @@ impl Law {
                 2 => Law::Tresca(vec![numbers[1]]),
                 3 => Law::Cohesive(numbers[1..].to_vec()),
                 4 => Law::Orthotropic(numbers[1..].to_vec()),
+                7 => Law::Tied,
                 _ => Law::Collinear(numbers[1..].to_vec()),
             },
             law => law.with(numbers.to_vec()),
@@ -83,6 +89,7 @@ impl Law {
             Law::Orthotropic(_) => 4.0,
             Law::Collinear(_) => 5.0,
             Law::ByPair(_) => return self.clone(),
+            Law::Tied => return Law::ByPair(vec![7.0, 0.0, 0.0, 0.0]),
         };
         let of_pair = |own: &[f64]| {
             let at = |k: usize| own.get(k).copied().unwrap_or(0.0);
@@ -95,7 +102,7 @@ impl Law {
     pub fn with_forces(&self, factor: f64) -> Law {
         let times = |values: &[f64]| values.iter().map(|value| factor * value).collect();
         match self {
-            Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) => self.clone(),
+            Law::Coulomb(_) | Law::Orthotropic(_) | Law::Collinear(_) | Law::Tied => self.clone(),
             Law::Tresca(g) => Law::Tresca(times(g)),
             Law::Cohesive(numbers) => Law::Cohesive(
                 numbers
@@ -124,6 +131,7 @@ impl Law {
                 [numbers[3 * pair].max(numbers[3 * pair + 1]), 0.0, 0.0]
             }
             Law::ByPair(_) => self.own(pair).of(0),
+            Law::Tied => unreachable!("a tie has no bound"),
         }
     }
 }

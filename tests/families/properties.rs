@@ -97,10 +97,11 @@ fn case(dim: usize, law: u8, slips: bool, recipes: &[Recipe]) -> Case {
             1 => Law::Tresca(recipes.iter().map(threshold).collect()),
             2 => Law::Cohesive(recipes.iter().flat_map(cohesion).collect()),
             _ => {
-                let own = |r: &Recipe| match r.load[0].rem_euclid(4) {
+                let own = |r: &Recipe| match r.load[0].rem_euclid(5) {
                     0 => vec![0.0; 4],
                     1 => vec![1.0, mu(r), 0.0, 0.0],
                     2 => vec![2.0, threshold(r), 0.0, 0.0],
+                    3 => vec![7.0, 0.0, 0.0, 0.0],
                     _ => [&[3.0][..], &cohesion(r)].concat(),
                 };
                 Law::ByPair(recipes.iter().flat_map(own).collect())

@@ -27,6 +27,8 @@ struct Chain {
     mu: Vec<f64>,
     ellipses: Vec<f64>,
     cohesion: Vec<f64>,
+    /// A tie, and Coulomb's law of the other pairs.
+    ties: Vec<f64>,
 }
 
 impl Chain {
@@ -53,7 +55,9 @@ impl Chain {
         let mu = (0..pairs).map(|_| draw(0.0, 0.6)).collect();
         let ellipses = (0..pairs).flat_map(|_| [0.2, 0.4, 0.3]).collect();
         let cohesion = (0..pairs).flat_map(|_| [0.3, 0.1, 0.05]).collect();
-        Chain { dim, pairs, k, load, gap, mu, ellipses, cohesion }
+        let tied = |pair: usize| if pair == 0 { [7.0, 0.0] } else { [1.0, 0.3] };
+        let ties = (0..pairs).flat_map(|pair| [tied(pair)[0], tied(pair)[1], 0.0, 0.0]).collect();
+        Chain { dim, pairs, k, load, gap, mu, ellipses, cohesion, ties }
     }
 
     /// Springs that nearly hold every second pair along its second tangent.
@@ -87,6 +91,7 @@ impl Chain {
             ("Coulomb", FrictionLaw::Coulomb(&self.mu)),
             ("Tresca", FrictionLaw::Tresca(&self.mu)),
             ("cohesive", FrictionLaw::Cohesive(&self.cohesion)),
+            ("tied in part", FrictionLaw::ByPair(&self.ties)),
         ];
         if self.dim == 3 {
             laws.push(("orthotropic", FrictionLaw::Orthotropic(&self.ellipses)));
@@ -143,7 +148,9 @@ fn solutions(chain: &Chain, shares: &mut Shares) {
                     "{}D, {} pairs, {name}, {method:?}, {search:?}, proof {proof}, {:?}",
                     chain.dim, chain.pairs, solution.status
                 );
-                shares.note(&what, chain.n(), peak, memory(chain.n()));
+                // The matrix of the pairs that are not tied.
+                let ties = if law.has_ties() { 8 * chain.n().pow(2) as u64 } else { 0 };
+                shares.note(&what, chain.n(), peak, memory(chain.n()) + ties);
             }
         }
     }
