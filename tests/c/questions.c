@@ -76,6 +76,18 @@ static void check_zones(int32_t base)
     CHECK_NEAR(sums.force[1], 2 * 3.2 + 2 * 2);
     CHECK_STATUS(signorini_surface_resultant(zone[1], NULL, d + 4, F + 4, NULL, &sums), 0);
     CHECK_NEAR(sums.force[1], 2 * 2);
+    /* Fields of all zones at once: a node of B has the values of the pair whose slave it is. */
+    double pressure[6] = {0};
+    const signorini_contact_fields fields = {.struct_size = sizeof fields, .pressure = pressure};
+    CHECK_STATUS(signorini_surface_fields(joined, NULL, NULL, d, F, state, &fields), 0);
+    for (int i = 0; i < 6; i++)
+        CHECK_NEAR(pressure[i], i < 2 ? 6.4 : 4);
+    const int64_t cells[6] = {base, base + 1, base + 2, base + 3, base + 4, base + 5};
+    const signorini_mesh mesh = {.struct_size = sizeof mesh, .dim = 2, .nodes = 6, .coordinates = x, .cells = 3,
+                                 .index_base = base, .cell_type = 3, .cell_nodes = cells};
+    const signorini_zone written = {.struct_size = sizeof written, .contact = joined, .d = d, .F = F, .state = state};
+    CHECK_STATUS(signorini_mesh_write("zones.vtu", &mesh, NULL, 1, &written, 0, NULL), 0);
+    CHECK(remove("zones.vtu") == 0);
     signorini_surface_free(joined);
 
     /* What is refused. */

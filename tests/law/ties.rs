@@ -369,3 +369,37 @@ fn ties_in_flexibility_form() {
         near(&force[..n], &stiff.certificate.force);
     }
 }
+
+/// A matrix that is not symmetric, as of a load that follows the motion: the others are such a problem too.
+#[test]
+fn ties_on_a_matrix_that_is_not_symmetric() {
+    for seed in 0..40 {
+        let rng = &mut Rng::with_seed(seed);
+        let (mut case, others) = partly_tied(rng, 3, 0.05);
+        let n = case.size();
+        // A little more on one side of the diagonal: x . K x stays positive, as eigenvalues are 1e-3 at least.
+        for j in 0..n {
+            for i in 0..j {
+                case.k[i + n * j] += uniform(rng, -1e-5, 1e-5);
+            }
+        }
+        let own = left(&case, &others);
+        let solve = |case: &Case| {
+            let problem = ContactProblem::unsymmetric(case.data()).unwrap();
+            let settings = settings(Method::Auto);
+            solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
+        };
+        let whole = solve(&case);
+        assert_eq!(whole.status, Status::Solved, "seed {seed}: {}", whole.message);
+        if others.is_empty() {
+            continue;
+        }
+        let part = solve(&own);
+        for (&i, expected) in others.iter().zip(&part.d) {
+            assert!(
+                (whole.d[i] - expected).abs() <= 1e-8 * largest(&part.d).max(1.0),
+                "seed {seed}"
+            );
+        }
+    }
+}
