@@ -171,10 +171,11 @@ mod tests {
                 // A step may leave 1e-15; coordinates of the size 1 by some ten terms each.
                 assert!((0..2).all(|c| (found[c] - at[c]).abs() < 1e-14), "{kind:?}: {found:?}");
                 assert!((curved.height(at) - place.z).abs() < 1e-15, "{kind:?}");
-                let exact = face.derivatives(at);
-                for c in 0..if kind.is_line() { 1 } else { 2 } {
-                    let miss = (curved.derivatives(at)[c] - exact[c]).norm();
-                    assert!(miss < 1e-14, "{kind:?}, {c}: {miss:e}");
+                let along = if kind.is_line() { 1 } else { 2 };
+                let both = face.derivatives(at).into_iter().zip(curved.derivatives(at));
+                for (exact, found) in both.take(along) {
+                    let miss = (found - exact).norm();
+                    assert!(miss < 1e-14, "{kind:?}: {miss:e}");
                 }
             }
         }
