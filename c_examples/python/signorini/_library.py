@@ -48,7 +48,7 @@ SIGNATURES = {
     "surface_free": (None, [address]),
     "surface_view": (i32, [address] * 2),
     "surface_join": (i32, [i64, address, address]),
-    "surface_table": (i32, [*[address] * 5, i64]),
+    "surface_table": (i32, [*[address] * 4, text, i64]),
     "surface_fields": (i32, [address] * 7),
     "surface_resultant": (i32, [address] * 6),
     "mesh_write": (i32, [text, address, address, i64, address, i64, address]),
