@@ -45,16 +45,16 @@ impl CaseArguments {
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
-        let law = law::read(arrays, at(3), (self.law, self.friction), pairs)?;
-        guard::reserve_estimate(model.memory_of_ties(law))?;
-        Ok(LoadCases {
+        let cases = LoadCases {
             model,
-            law,
             load: arrays.matrices(|arrays| arrays.required(at(0), "f", self.f, host))?,
             prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
             gap: arrays.required(at(2), "gap", self.gap, pairs)?,
+            law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
             slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
-        })
+        };
+        guard::reserve_estimate(cases.memory_of_ties())?;
+        Ok(cases)
     }
 
     /// Number of the argument that an error is about; `otherwise` of an argument of the call that

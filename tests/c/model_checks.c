@@ -203,7 +203,7 @@ static void bad_certificates(void)
     BAD(-2, "f is NULL", NULL, NULL, gap, 1, mu, NULL, 1e-10, d);
     BAD(-3, "prescribed[0]", f, nan + 1, gap, 1, mu, NULL, 1e-10, d);
     BAD(-4, "gap[1] is NaN", f, NULL, nan, 1, mu, NULL, 1e-10, d);
-    BAD(-5, "law is 6", f, NULL, gap, 6, mu, NULL, 1e-10, d);
+    BAD(-5, "law is 8", f, NULL, gap, 8, mu, NULL, 1e-10, d);
     BAD(-6, "friction is NULL", f, NULL, gap, 1, NULL, NULL, 1e-10, d);
     BAD(-6, "mu[1] is not finite", f, NULL, gap, 1, nan, NULL, 1e-10, d);
     BAD(-7, "slip0[1] is not finite", f, NULL, gap, 1, mu, nan, 1e-10, d);
