@@ -387,6 +387,16 @@ module signorini
         real(c_double) :: pressed_area = 0
     end type
 
+    type, bind(C) :: signorini_penetration
+        integer(c_int32_t) :: struct_size = 64
+        integer(c_int32_t) :: points = 0
+        real(c_double) :: depth = 0
+        real(c_double) :: point(3) = 0
+        integer(c_int64_t) :: face = 0
+        integer(c_int64_t) :: node = 0
+        integer(c_int64_t) :: master_face = 0
+    end type
+
     type, bind(C) :: signorini_mesh
         integer(c_int32_t) :: struct_size = 32 + 4 * address_bytes
         integer(c_int32_t) :: dim = 0
@@ -638,6 +648,10 @@ module signorini
             import
             type(c_ptr), value :: contact, slip0, d, force, point, resultant
         end function
+        integer(c_int32_t) function signorini_surface_penetration(contact, u, penetration) bind(C)
+            import
+            type(c_ptr), value :: contact, u, penetration
+        end function
         integer(c_int32_t) function signorini_mesh_write(path, mesh, u, n_zones, zones, n_fields, fields) &
             bind(C)
             import
@@ -783,6 +797,7 @@ module signorini
         procedure :: table => surfaces_table
         procedure :: fields => surfaces_fields
         procedure :: resultant => surfaces_resultant
+        procedure :: penetration => surfaces_penetration
         procedure :: write => surfaces_write
         procedure :: release => surfaces_release
     end type
@@ -1972,6 +1987,22 @@ contains
         call finish(signorini_surface_resultant(self%handle, address(slip0), address(d), &
             address(force), address(point), c_loc(sums)), info, message, &
             [CONTACT_WRONG_MODEL, 5, 1, 2, 6, 3])
+    end subroutine
+
+    ! What has passed through the other side without a pair, after displacements u of all degrees of freedom.
+    subroutine surfaces_penetration(self, u, found, info, message)
+        class(contact_surfaces), intent(in) :: self
+        real(c_double), intent(in), contiguous, target :: u(:)
+        type(signorini_penetration), intent(out), target :: found
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        if (size(u) < self%dofs) call refuse(wrong, 1, 'u has ' // entries(size(u)) // &
+            ', it must have those of all degrees of freedom')
+        if (refused(wrong, info, message)) return
+        call finish(signorini_surface_penetration(self%handle, address(u), c_loc(found)), info, message, &
+            [CONTACT_WRONG_MODEL, 1, 2])
     end subroutine
 
     ! Writes a mesh of cells of one of VTK's types, cells(k, number), with displacements u and fields

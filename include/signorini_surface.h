@@ -371,6 +371,7 @@ int32_t signorini_surface_table(const signorini_surface_pairs *joined, const dou
 
 typedef struct signorini_contact_fields signorini_contact_fields;
 typedef struct signorini_resultant signorini_resultant;
+typedef struct signorini_penetration signorini_penetration;
 typedef struct signorini_mesh signorini_mesh;
 typedef struct signorini_zone signorini_zone;
 typedef struct signorini_field signorini_field;
@@ -444,6 +445,36 @@ int32_t signorini_surface_fields(const signorini_surface_pairs *contact, const d
 int32_t signorini_surface_resultant(const signorini_surface_pairs *contact, const double *slip0,
                                     const double *d, const double *F, const double *point,
                                     signorini_resultant *resultant);
+
+/**
+ * What has passed through. Set struct_size before the call; the call writes all other fields.
+ * Faces and nodes are counted as yours; -1: none.
+ */
+struct signorini_penetration {
+    uint32_t struct_size; /**< sizeof(signorini_penetration). */
+    /** Number of slave nodes and of middles of slave faces that have passed through; 0: none. */
+    int32_t points;
+    /** How deep the deepest is, along the slave's normal before the motion; length. */
+    double depth;
+    double point[3];      /**< Where it is, moved; in 2D the third entry is 0. */
+    int64_t face;         /**< Its slave face. */
+    int64_t node;         /**< Its slave node; -1: it is the middle of the face. */
+    /** The master face that it has passed through; -1 of an obstacle that is a shape. */
+    int64_t master_face;
+};
+
+/**
+ * Checks after a solution if parts of the slave's surface have passed through the master or the
+ * obstacle: nothing holds what has no pair, such as faces beyond the search distance. Where pairs
+ * hold, a tenth of a face's size is left to them.
+ *
+ * @param contact      the pairs of one zone, as they were made
+ * @param u            displacements of all your degrees of freedom, as signorini_model_recover
+ *                     writes them; at least up to the largest one of the nodes
+ * @param penetration  out: what is found; set penetration->struct_size before
+ */
+int32_t signorini_surface_penetration(const signorini_surface_pairs *contact, const double *u,
+                                      signorini_penetration *penetration);
 
 /**
  * A mesh of yours, to be written to a file. Cells have the types and the order of nodes of VTK: 3

@@ -12,8 +12,8 @@ use super::surface_settings::{Numbering, ParsedSurfaceSettings, SignoriniSurface
 use crate::error::{Argument, Message};
 use crate::problem;
 use crate::surface::{
-    PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces, pair_with_obstacle,
-    pair_with_rigid_surface,
+    KeptSurfaces, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces,
+    pair_with_obstacle, pair_with_rigid_surface,
 };
 
 /// Contact pairs that the library made from surfaces. It does not change: several threads may use
@@ -21,6 +21,8 @@ use crate::surface::{
 /// releases it.
 pub struct SignoriniSurfacePairs {
     pub(super) found: SurfacePairs,
+    /// Both sides; none of joined pairs.
+    pub(super) kept: Option<KeptSurfaces>,
     /// Nodes of the host.
     pub(super) nodes: usize,
     pub(super) numbering: Numbering,
@@ -87,6 +89,10 @@ pub unsafe extern "C" fn signorini_surface_pair(
         let received = &host.received;
         let found =
             received.monitored(|monitor| pair_surfaces(&surfaces, &received.settings, monitor));
+        let kept = || {
+            KeptSurfaces::new((surfaces.dim, surfaces.coordinates), surfaces.slave, surfaces.master)
+        };
+        let found = found.map(|found| (found, kept()));
         place.fill(found.map(|found| (found, host)), position)
     })
 }
@@ -118,14 +124,19 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
         let slave = SignoriniFaces::view(&host.slave);
         let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.numbering.base, obstacle)?;
         let given = &received.settings;
+        let host_side = (*dim, *coordinates);
         let found = received.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {
-                pair_with_obstacle(*dim, coordinates, slave, shape, given, monitor)
+                let found = pair_with_obstacle(*dim, coordinates, slave, shape, given, monitor)?;
+                Ok((found, KeptSurfaces::against_shape(host_side, slave, *shape)))
             }
             Rigid::Faces(of_obstacle, faces) => {
                 let faces = SignoriniFaces::view(faces);
                 let rigid = RigidSurface { coordinates: of_obstacle, faces };
-                pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given, monitor)
+                let found =
+                    pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given, monitor)?;
+                let kept = KeptSurfaces::against_faces(host_side, slave, (of_obstacle, faces));
+                Ok((found, kept))
             }
         });
         place.fill(found.map(|found| (found, host)), position)
@@ -194,12 +205,15 @@ impl JoinedZones {
     }
 }
 
-impl From<(SurfacePairs, Host<'_>)> for SignoriniSurfacePairs {
-    fn from((found, host): (SurfacePairs, Host<'_>)) -> Self {
+impl From<((SurfacePairs, KeptSurfaces), Host<'_>)> for SignoriniSurfacePairs {
+    fn from(((found, kept), host): ((SurfacePairs, KeptSurfaces), Host<'_>)) -> Self {
         let summary = found.summary();
         let zones = JoinedZones { summary, ..JoinedZones::default() };
         let of_host = (host.coordinates.len() / host.dim, host.received.numbering);
-        SignoriniSurfacePairs::new(found, of_host, host.slave, zones)
+        SignoriniSurfacePairs {
+            kept: Some(kept),
+            ..SignoriniSurfacePairs::new(found, of_host, host.slave, zones)
+        }
     }
 }
 
@@ -259,11 +273,17 @@ impl SignoriniSurfacePairs {
             zones,
             arrays,
             found,
+            kept: None,
         }
     }
 }
 
 impl SignoriniSurfacePairs {
+    /// 0 or 1: from where the host counts.
+    pub(super) fn base(&self) -> i64 {
+        self.numbering.base
+    }
+
     /// Degrees of freedom of all nodes of the host, `dim` for each.
     pub(super) fn dofs(&self) -> Vec<usize> {
         let dofs = self.numbering.dofs();

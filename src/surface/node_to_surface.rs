@@ -28,7 +28,7 @@ use crate::linalg::vector3::{Vector3, unit};
 /// the rim by construction miss it by rounding.
 const BEYOND: f64 = 1e-9;
 
-fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
+pub(super) fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
     if kind.is_triangle() {
         return s >= -BEYOND && t >= -BEYOND && s + t <= 1.0 + BEYOND;
     }

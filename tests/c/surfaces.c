@@ -613,6 +613,7 @@ static void refused_results(void)
     fields.state = of_node;
     CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, &fields), -6);
     CHECK_STATUS(signorini_surface_resultant(contact, NULL, d, F, NULL, NULL), -6);
+    CHECK_STATUS(signorini_surface_penetration(contact, NULL, NULL), -2);
     mesh.nodes = 4;
     const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact, .d = d, .F = F};
     CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 1, &zone, 0, NULL), -5);
@@ -629,6 +630,34 @@ static void refused_results(void)
     signorini_surface_free(contact);
 }
 
+/* A line 0.1 above another one, with nothing between them, moves down by 0.3: both its nodes and its middle are 0.2 deep. */
+static void penetration(void)
+{
+    static const double x[10] = {0, 0.1, 1, 0.1, -1, 0, 0.5, 0, 2, 0}, still[10];
+    static const double down[10] = {0, -0.3, 0, -0.3};
+    const int64_t above[2] = {1, 2}, below[4] = {5, 4, 4, 3};
+    const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = above};
+    const signorini_faces master = {.struct_size = sizeof master, .face_nodes = 2, .count = 2, .nodes = below};
+    signorini_penetration found = {.struct_size = sizeof found};
+    signorini_surface_pairs *contact = NULL;
+    signorini_surface_settings settings;
+    CHECK_STATUS(signorini_surface_settings_default(&settings, sizeof settings), 0);
+    settings.search_distance = 0.05;
+    settings.index_base = 1;
+    CHECK_STATUS(signorini_surface_pair(2, 5, x, &slave, &master, &settings, &contact), 0);
+    CHECK(surface_data(contact).pairs == 0);
+    CHECK_STATUS(signorini_surface_penetration(contact, still, &found), 0);
+    CHECK(found.points == 0 && found.depth == 0 && found.face == -1 && found.node == -1);
+    CHECK_STATUS(signorini_surface_penetration(contact, down, &found), 0);
+    CHECK(found.points == 3 && found.face == 1 && found.master_face > 0);
+    CHECK_NEAR(found.depth, 0.2);
+    CHECK_NEAR(found.point[1], -0.2);
+    CHECK_STATUS(signorini_surface_penetration(contact, down, NULL), -3);
+    const double nowhere[10] = {0, NAN};
+    CHECK_STATUS(signorini_surface_penetration(contact, nowhere, &found), -2);
+    signorini_surface_free(contact);
+}
+
 int main(void)
 {
     patch(0);
@@ -640,6 +669,7 @@ int main(void)
     true_shapes();
     rigid_faces();
     never_meet();
+    penetration();
     refusals();
     refused_results();
     return check_summary("surfaces");

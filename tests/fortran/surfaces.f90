@@ -13,6 +13,7 @@ program surfaces_test
     type(contact_surfaces) :: surfaces, joined
     type(contact_model) :: model
     type(signorini_resultant) :: sums
+    type(signorini_penetration) :: passed
     type(signorini_obstacle) :: plane
     real(dp) :: d(4), force(4), load(10), pressure(5), traction(2, 5), clearance(5), apart(2, 5), u(10)
     integer :: info, failed, i, state(2), node_state(5), starts(11), rows(10)
@@ -71,6 +72,8 @@ program surfaces_test
         all(abs(pressure(:2) + force([1, 3])/surfaces%area) < 1d-12))
     call expect('directions', all(abs(traction(2, :2) - pressure(:2)) < 1d-12) .and. &
         all(abs(clearance(:2)) < 1d-9) .and. all(node_state == SIGNORINI_STATE_SLIP))
+    call surfaces%penetration(u, passed, info, message=message)
+    call expect('nothing has passed', info == 0 .and. message == '' .and. passed%points == 0)
     call surfaces%write('surfaces.vtu', places, master, 3, d, force, info, u, state, message=message)
     call expect('file', info == 0 .and. message == '')
     open (newunit=i, file='surfaces.vtu', status='old')

@@ -33,7 +33,7 @@ STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.ModelData: "model_data", structures.SurfaceData: "surface_data",
               structures.Zone: "zone", structures.ProblemData: "problem_data",
               structures.Operator: "operator",
-              structures.ContactFields: "contact_fields", structures.ResultantSums: "resultant",
+              structures.ContactFields: "contact_fields", structures.ResultantSums: "resultant", structures.PenetrationData: "penetration",
               structures.Mesh: "mesh", structures.NodalField: "field"}
 BUILT = os.path.join(ROOT, "target", "release", "libsignorini.so")
 

@@ -8,6 +8,7 @@ import os
 import pickle
 import tempfile
 import unittest
+import warnings
 from xml.etree import ElementTree
 
 import numpy as np
@@ -42,6 +43,26 @@ class Zones(unittest.TestCase):
             self.assertEqual((row.pairs, row.open, row.slip + row.stick), (2, 0, 2))
             np.testing.assert_allclose(row.force, [0, 2 * pressure, 0], atol=1e-9)
             self.assertAlmostEqual(row.pressed_area, 1)
+
+    def test_what_passes_through_without_a_pair_is_told(self):
+        """The upper line falls by 4 / 1 and the middle one by 4 / 2: the upper one passes through by 2 - 0.2."""
+        above = signorini.pair_surfaces(LINES, [[0, 1]], [[3, 2]], search_distance=0.05)
+        contacts = {"above": above, "below": self.contacts["below"]}
+        springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
+        held = self.model.solve(self.load, mu=0.3)
+        self.assertIsNone(held.penetration)
+        model = signorini.Model.from_surfaces(springs, contacts)
+        with self.assertWarnsRegex(UserWarning, "3 slave nodes and middles .* have passed .* larger search_distance"):
+            result = model.solve(self.load, mu=0.3)
+        middle = (4 / 2 - 0.1) / (1 / 2 + 1 / 4) / 4 + 0.1  # what the middle line falls by on the lower one
+        self.assertAlmostEqual(result.penetration.depth, 4 - middle - 0.2, delta=1e-8)
+        self.assertEqual(result.penetration.points, 3)
+        self.assertAlmostEqual(result.penetration.point[1], 0.3 - 4)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertIsNone(model.solve(self.load, mu=0.3, penetration=False).penetration)
+        pickled = pickle.loads(pickle.dumps(result))
+        self.assertEqual(pickled.penetration.sentence, result.penetration.sentence)
 
     def test_numbers_of_each_zone(self):
         """A push that friction holds in one zone slides in the other."""

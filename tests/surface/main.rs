@@ -15,6 +15,7 @@ mod models;
 mod overlap;
 mod parts_of_faces;
 mod patch;
+mod penetration;
 mod press_fit;
 mod quadrilaterals;
 mod reach;

@@ -2,6 +2,7 @@
 
 import contextlib
 import ctypes
+import warnings
 import weakref
 from collections import namedtuple
 
@@ -255,7 +256,7 @@ class Model:
         return load
 
     def solve(self, f, gap=None, mu=None, *, g=None, law=None, friction=None, slip0=None,
-              prescribed=None, start=None, **settings):
+              prescribed=None, start=None, penetration=True, **settings):
         """Solves a load case, f of H entries: a Result; or several, f of (C, H): a list of them.
 
         gap, mu, g, law, friction, slip0, start: as for the function solve; gap None: those of
@@ -263,6 +264,8 @@ class Model:
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.
+        penetration: with pairs from surfaces, look if parts without a pair have passed through the other side: a
+        warning, and Result.penetration.
         """
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
@@ -288,11 +291,24 @@ class Model:
             words = self._functions.status_string(code).decode()
             if code != 0 and not told:  # the library's sentence is of the first of them
                 words, told = message.removeprefix(f"case {c}: "), True
-            case = data if cases is None else data.of(c)
-            results.append(output.result(
-                c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance)
-            )._replace(contact=self._zones or self.contact))
+            case, contact = data if cases is None else data.of(c), self._zones or self.contact
+            result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
+            passed = self._penetration(case, result) if penetration and contact else None
+            results.append(result._replace(contact=contact, penetration=passed))
         return results[0] if cases is None else results
+
+    def _penetration(self, case, result):
+        """What has passed through without a pair in a solution of a Case, of which it warns."""
+        gaps = self._zones.all("gaps") if self._zones else self.contact.gaps
+        # Larger gaps of the caller are of surfaces that the coordinates do not show.
+        if result.status != Status.SOLVED or np.any(case.gap > gaps):
+            return None
+        u = np.zeros(self.host_size)
+        self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
+        found = (self._zones or self.contact).penetration(u)
+        if found:
+            warnings.warn(found.sentence, stacklevel=3)
+        return found
 
     def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,
                 prescribed=None, tolerance=1e-10):

@@ -21,7 +21,7 @@ memory: bytes that it needs in all, told before they are taken; 0 before they ar
 """
 
 _Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "
-                     "escape contact", defaults=(None, None, None, None))
+                     "escape contact penetration", defaults=(None, None, None, None, None))
 
 
 class Result(_Fields):
@@ -40,6 +40,8 @@ class Result(_Fields):
     component 1, without the lift that a proof needs: draw this one; with status STALLED the motion
     along which bodies move away as supports are let go, if they do, which proves nothing; else None.
     contact: the SurfacePairs of the model; of a model with several zones the pairs of all of them; or None.
+    penetration: with pairs from surfaces and status SOLVED the Penetration of what has passed through the other side
+    without a pair, of which solve warns; None: nothing has.
 
     A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
     """

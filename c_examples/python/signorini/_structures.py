@@ -187,6 +187,15 @@ class ContactFields(ctypes.Structure):
     ]
 
 
+class PenetrationData(ctypes.Structure):
+    """signorini_penetration"""
+
+    _fields_ = [
+        ("struct_size", u32), ("points", i32), ("depth", real), ("point", real * 3), ("face", i64),
+        ("node", i64), ("master_face", i64),
+    ]
+
+
 class ResultantSums(ctypes.Structure):
     """signorini_resultant"""
 

@@ -13,8 +13,8 @@ from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
 from ._library import SignoriniError, check, library
 from ._mesh import Cells, points
-from ._structures import (ContactFields, Faces, Pairs, ResultantSums, RigidObstacle, SurfaceData,
-                          SurfaceSettings, Zone, address, i32, i64, real, sized)
+from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
+                          SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
 Plane = namedtuple("Plane", "point outward")
 Plane.__doc__ = """A rigid half space, in 2D a half plane.
@@ -65,6 +65,14 @@ Resultant.__doc__ = """Sums over a contact zone, over whole rings if it is axisy
 
 force: of the contact on the slave's body, (3,).  moment: about the point, (3,).  friction_work:
 what friction takes in the step.  pressed_area: of the pairs that press.
+"""
+
+Penetration = namedtuple("Penetration", "points depth point face node master_face sentence")
+Penetration.__doc__ = """What has passed through the other side without a pair; the deepest point of it.
+
+points: number of slave nodes and of middles of slave faces that have.  depth: along the slave's normal.
+point: where, moved, (3,).  face: its slave face.  node: its slave node; -1: the middle of the face.
+master_face: the face that it has passed through; -1: a shape.  sentence: the same in words.
 """
 
 
@@ -246,6 +254,33 @@ class SurfacePairs:
         return Resultant(np.array(sums.force), np.array(sums.moment), sums.friction_work,
                          sums.pressed_area)
 
+    def penetration(self, u):
+        """What has passed through the other side without a pair: a Penetration, or None if nothing has.
+
+        u: displacements of all degrees of freedom, as Model.recover returns them.
+        """
+        found = sized(PenetrationData)
+        u = self._displacements(u)
+        self._do("surface_penetration", at(u), ctypes.byref(found))
+        if not found.points:
+            return None
+        place = ", ".join(f"{x:.6g}" for x in found.point[:self.dim])
+        what = f"node {found.node}" if found.node >= 0 else f"the middle of slave face {found.face}"
+        through = f"master face {found.master_face}" if found.master_face >= 0 else "the obstacle"
+        sentence = (
+            f"{found.points} slave nodes and middles of slave faces have passed through the other side without a "
+            f"pair, the deepest, {what} at ({place}), through {through} by {found.depth:.4g}: pair with a larger "
+            f"search_distance")
+        return Penetration(found.points, found.depth, np.array(found.point), found.face, found.node,
+                           found.master_face, sentence)
+
+    def _displacements(self, u):
+        u = np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
+        if u.size < self._least:
+            raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
+                             f"freedom, at least {self._least}")
+        return u
+
     def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
         """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
 
@@ -254,10 +289,7 @@ class SurfacePairs:
         """
         mesh = Cells(self._coordinates, cells)
         gap, slip0, d, F, state = self._results(result, slip0, gap)
-        u = None if u is None else np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
-        if u is not None and u.size < self._least:
-            raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
-                             f"freedom, at least {self._least}")
+        u = None if u is None else self._displacements(u)
         mesh.write(path, u, [sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d),
                                    F=at(F), state=at(state))])
 

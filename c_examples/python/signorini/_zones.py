@@ -114,6 +114,11 @@ class Zones:
         second = None if result.second is None else self.of(result.second, name)
         return result._replace(contact=self.contacts[name], second=second, **parts)
 
+    def penetration(self, u):
+        """The deepest Penetration of all zones, or None."""
+        found = [contact.penetration(u) for contact in self.contacts.values()]
+        return max((one for one in found if one), key=lambda one: one.depth, default=None)
+
     def table(self, result):
         """A ZoneSums for each zone."""
         sums = []

@@ -1,0 +1,246 @@
+//! Parts of the slave surface that have passed through the master: a check after the solution, as nothing holds what has no
+//! pair.
+//!
+//! A moved point of the slave has passed through a moved master if that lies behind it along its normal before the motion,
+//! and the same point of the master was not behind it before. What was, as layers behind each other are and surfaces that overlap
+//! from the beginning, is left to the pairs.
+
+use std::collections::{BTreeSet, HashSet};
+
+use super::candidates::{Candidates, Reach, SearchFaces};
+use super::exact_shape::Obstacle;
+use super::face::Face;
+use super::mesh::{Faces, Side};
+use super::node_to_surface::is_on;
+use super::pairs::SurfacePairs;
+use super::plane::Plane;
+use super::shape::Local;
+use super::watch::Watch;
+use crate::error::{Argument, Error};
+use crate::linalg::vector3::{Vector3, unit};
+use crate::monitor::Monitor;
+
+/// Less than this share of a face's size is rounding of displacements.
+const LEAST: f64 = 1e-6;
+
+/// Pairs hold their nodes in the mean: between nodes, and where a node is folded, faces of two curved surfaces pass by a
+/// small share of their size.
+const LEAST_OF_PAIRED: f64 = 0.1;
+
+/// What the slave faces.
+#[derive(Clone, Debug)]
+enum Opposite {
+    /// Faces that move, or a rigid mesh with coordinates of its own.
+    Faces {
+        start: Vec<usize>,
+        nodes: Vec<usize>,
+        rigid: Option<Vec<f64>>,
+    },
+    Shape(Obstacle),
+}
+
+/// Copies of both sides before the motion, for [`Self::penetration`].
+#[derive(Clone, Debug)]
+pub struct KeptSurfaces {
+    dim: usize,
+    /// Nodes of the host that stand on a side, ascending; lists of faces count them by their place here.
+    nodes: Vec<usize>,
+    coordinates: Vec<f64>,
+    slave: [Vec<usize>; 2],
+    opposite: Opposite,
+}
+
+/// How far the slave has passed through the master.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Penetration {
+    /// Number of slave nodes and of middles of slave faces that have passed through.
+    pub count: usize,
+    /// How deep the deepest is, along the slave's normal before the motion.
+    pub depth: f64,
+    /// Where it is, moved.
+    pub point: [f64; 3],
+    /// Its slave face.
+    pub face: usize,
+    /// Its slave node; `None`: the middle of the face.
+    pub node: Option<usize>,
+    /// The master face; `None` of a shape.
+    pub master: Option<usize>,
+}
+
+/// A point of a slave face with what decides about it.
+struct Asked {
+    at: Local,
+    /// Before the motion.
+    normal: Vector3,
+    least: f64,
+}
+
+impl KeptSurfaces {
+    /// Keeps a slave side and faces of the same mesh opposite.
+    pub fn new(
+        (dim, coordinates): (usize, &[f64]),
+        slave: Faces<'_>,
+        master: Faces<'_>,
+    ) -> KeptSurfaces {
+        let mut nodes = [slave.nodes, master.nodes].concat();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let place = |node: &usize| nodes.binary_search(node).unwrap_or_default();
+        let places =
+            |faces: Faces<'_>| [faces.start.to_vec(), faces.nodes.iter().map(place).collect()];
+        let [start, of_master] = places(master);
+        let kept = |node: &usize| coordinates[dim * node..dim * (node + 1)].to_vec();
+        KeptSurfaces {
+            dim,
+            slave: places(slave),
+            coordinates: nodes.iter().flat_map(kept).collect(),
+            opposite: Opposite::Faces { start, nodes: of_master, rigid: None },
+            nodes,
+        }
+    }
+
+    /// Keeps a slave side against a rigid mesh with coordinates of its own.
+    pub fn against_faces(
+        host: (usize, &[f64]),
+        slave: Faces<'_>,
+        (rigid, faces): (&[f64], Faces<'_>),
+    ) -> KeptSurfaces {
+        let (start, nodes) = (faces.start.to_vec(), faces.nodes.to_vec());
+        let opposite = Opposite::Faces { start, nodes, rigid: Some(rigid.to_vec()) };
+        KeptSurfaces { opposite, ..KeptSurfaces::new(host, slave, NONE) }
+    }
+
+    /// Keeps a slave side against a rigid shape.
+    pub fn against_shape(host: (usize, &[f64]), slave: Faces<'_>, shape: Obstacle) -> KeptSurfaces {
+        KeptSurfaces { opposite: Opposite::Shape(shape), ..KeptSurfaces::new(host, slave, NONE) }
+    }
+
+    /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
+    /// `pairs` are those of these surfaces.
+    ///
+    /// # Errors
+    /// Displacements that are not finite; [`Error::Stopped`]: the monitor ends it.
+    pub fn penetration(
+        &self,
+        pairs: &SurfacePairs,
+        u: impl Fn(usize, usize) -> f64,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Penetration, Error> {
+        let axes = self.nodes.iter().flat_map(|&node| (0..self.dim).map(move |axis| (node, axis)));
+        let moved: Vec<f64> =
+            self.coordinates.iter().zip(axes).map(|(x, (node, axis))| x + u(node, axis)).collect();
+        if moved.iter().any(|x| !x.is_finite()) {
+            return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
+        }
+        let watch = &mut Watch::new(monitor);
+        let slaves = self.sides("slave", &moved, &self.slave)?;
+        match &self.opposite {
+            Opposite::Shape(shape) => {
+                let shape = shape.check(self.dim, 1.0).unwrap_or_else(|_| unreachable!("checked"));
+                let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
+                self.deepest(pairs, &slaves, watch, |[before, face], asked| {
+                    let depths = [before, face].map(|face| depth(face.position(asked.at)));
+                    (depths[0] <= asked.least).then_some((depths[1], None))
+                })
+            }
+            Opposite::Faces { start, nodes, rigid } => {
+                let faces = [start.clone(), nodes.clone()];
+                let masters = match rigid {
+                    None => self.sides("master", &moved, &faces)?,
+                    Some(rigid) => [
+                        self.side("obstacle", rigid, &faces)?,
+                        self.side("obstacle", rigid, &faces)?,
+                    ],
+                };
+                self.through_faces(pairs, [&slaves, &masters], watch)
+            }
+        }
+    }
+
+    fn side<'s>(
+        &self,
+        name: &'static str,
+        x: &'s [f64],
+        [start, nodes]: &'s [Vec<usize>; 2],
+    ) -> Result<Side<'s>, Error> {
+        Side::new(name, Argument::Coordinates, (self.dim, x), Faces { start, nodes })
+    }
+
+    /// A side before and after the motion.
+    fn sides<'s>(
+        &'s self,
+        name: &'static str,
+        moved: &'s [f64],
+        faces: &'s [Vec<usize>; 2],
+    ) -> Result<[Side<'s>; 2], Error> {
+        Ok([self.side(name, &self.coordinates, faces)?, self.side(name, moved, faces)?])
+    }
+
+    fn through_faces(
+        &self,
+        pairs: &SurfacePairs,
+        [slaves, [before, after]]: [&[Side<'_>; 2]; 2],
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Penetration, Error> {
+        let (own, opposite) =
+            (SearchFaces::new(&slaves[1], watch)?, SearchFaces::new(after, watch)?);
+        let bounds = [own.tree.bounds(), opposite.tree.bounds()].into_iter().flatten();
+        let span = bounds.reduce(|a, b| a.with(&b)).map_or(0.0, |all| all.diagonal());
+        let reach = Reach { overlap: span, open: 0.0, layer: span };
+        let mut candidates = Candidates::new(opposite, reach, span);
+        self.deepest(pairs, slaves, watch, |[first, face], asked| {
+            let (x, origin) = (face.position(asked.at), first.position(asked.at));
+            let plane = Plane::new(self.dim, x, asked.normal);
+            let behind = candidates.of_point(x, asked.normal).iter().filter_map(|&at| {
+                let flat = plane.flatten(&after.face(at));
+                let local = flat.local([0.0; 2]).filter(|&local| is_on(flat.face.kind, local))?;
+                let apart = before.face(at).position(local) - origin;
+                let was_before = asked.normal.dot(&apart) >= -asked.least;
+                let depth = -flat.height(local);
+                (was_before && depth > asked.least).then_some((depth, Some(at)))
+            });
+            behind.min_by(|a, b| a.0.total_cmp(&b.0))
+        })
+    }
+
+    /// The deepest of all points, whose depths `through` tells with the master face.
+    fn deepest(
+        &self,
+        pairs: &SurfacePairs,
+        [before, after]: &[Side<'_>; 2],
+        watch: &mut Watch<'_, '_>,
+        mut through: impl FnMut([&Face<'_>; 2], &Asked) -> Option<(f64, Option<usize>)>,
+    ) -> Result<Penetration, Error> {
+        let mut held: BTreeSet<usize> = pairs.pairs.iter().map(|pair| pair.slave).collect();
+        held.extend(pairs.report.folded.iter().map(|fold| fold.node));
+        let uncovered: HashSet<usize> = pairs.report.uncovered_faces.iter().copied().collect();
+        let (mut found, mut counted) = (Penetration::default(), HashSet::new());
+        for at in 0..after.count() {
+            watch.goes_on()?;
+            let faces = [before.face(at), after.face(at)];
+            let size = faces[0].size();
+            let nodes = || faces[0].nodes.iter().map(|&place| self.nodes[place]);
+            let face_is_held = !uncovered.contains(&at) && nodes().any(|node| held.contains(&node));
+            let places = faces[0].kind.places().iter().copied().zip(nodes().map(Some));
+            for (local, node) in places.chain([(faces[0].kind.centre(), None)]) {
+                let is_held = node.map_or(face_is_held, |node| held.contains(&node));
+                let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
+                let normal = unit(faces[0].outward(local)).unwrap_or_default();
+                let asked = Asked { at: local, normal, least };
+                let passed = through([&faces[0], &faces[1]], &asked);
+                let Some((depth, master)) = passed.filter(|(depth, _)| *depth > least) else {
+                    continue;
+                };
+                found.count += usize::from(node.is_none_or(|node| counted.insert(node)));
+                if depth > found.depth {
+                    let point = faces[1].position(local).into();
+                    found = Penetration { depth, point, face: at, node, master, ..found };
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// A side without faces.
+const NONE: Faces<'static> = Faces { start: &[0], nodes: &[] };

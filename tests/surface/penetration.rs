@@ -1,0 +1,198 @@
+//! The check after a solution: a cantilever that bends through what it is not paired with.
+
+use crate::common::mesh::{Mesh, steps};
+use crate::surfaces::{flat, unlimited};
+use signorini::reduce::ContactPairs;
+use signorini::surface::{
+    Faces, KeptSurfaces, Obstacle, Penetration, SurfacePairs, SurfaceSettings, Surfaces,
+    pair_surfaces, pair_with_obstacle,
+};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
+
+/// Length of the beam, and the gap below it.
+const LENGTH: f64 = 20.0;
+const GAP: f64 = 6.0;
+
+/// Bends of a beam that is clamped at x = 0 and loaded at its tip by a force: Euler and Bernoulli's, whose tip moves by
+/// `tip`.
+fn bend(x: f64, tip: f64) -> f64 {
+    let s = x / LENGTH;
+    -tip * s * s * (3.0 - s) / 2.0
+}
+
+/// A beam of the height 1 on y = 0, and a block below the gap, with pairs within a distance.
+struct Beam {
+    mesh: Mesh,
+    first_of_block: usize,
+    found: SurfacePairs,
+    kept: KeptSurfaces,
+}
+
+/// What lies below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Below {
+    Block,
+    Plane,
+    /// A rigid line with a node of its own at each end.
+    Line,
+}
+
+const PLANE: Obstacle = Obstacle::Plane { point: [0.0, -GAP, 0.0], outward: [0.0, 1.0, 0.0] };
+
+impl Beam {
+    fn new(columns: usize, below: Below, search_distance: Option<f64>) -> Beam {
+        let mut mesh = Mesh::default();
+        let upper = mesh.block(&steps(0.0, LENGTH, columns), &steps(0.0, 1.0, 2), (1000.0, 0.0));
+        let first_of_block = 2 * mesh.nodes.len();
+        let lower = mesh.block(
+            &steps(-1.0, 21.0, columns / 2 + 1),
+            &steps(-GAP - 2.0, -GAP, 2),
+            (1000.0, 0.0),
+        );
+        let faces = |row: Vec<usize>| row.windows(2).map(<[usize]>::to_vec).collect::<Vec<_>>();
+        let (slave, mut master) = (faces(upper.row(0)), faces(lower.row(2)));
+        master.iter_mut().for_each(|face| face.reverse());
+        let ((start, nodes), (of_start, of_nodes)) = (flat(&slave), flat(&master));
+        let slave = Faces { start: &start, nodes: &nodes };
+        let master = Faces { start: &of_start, nodes: &of_nodes };
+        let x = mesh.nodes.concat();
+        let settings = &SurfaceSettings { search_distance, ..SurfaceSettings::default() };
+        let (found, kept) = match below {
+            Below::Plane => (
+                pair_with_obstacle(2, &x, slave, &PLANE, settings, &mut unlimited()),
+                KeptSurfaces::against_shape((2, &x), slave, PLANE),
+            ),
+            Below::Block => (
+                pair_surfaces(
+                    &Surfaces { dim: 2, coordinates: &x, slave, master },
+                    settings,
+                    &mut unlimited(),
+                ),
+                KeptSurfaces::new((2, &x), slave, master),
+            ),
+            Below::Line => {
+                let (ends, line) =
+                    ([21.0, -GAP, -1.0, -GAP], Faces { start: &[0, 2], nodes: &[0, 1] });
+                let rigid = signorini::surface::RigidSurface { coordinates: &ends, faces: line };
+                (
+                    signorini::surface::pair_with_rigid_surface(
+                        2,
+                        &x,
+                        slave,
+                        &rigid,
+                        settings,
+                        &mut unlimited(),
+                    ),
+                    KeptSurfaces::against_faces((2, &x), slave, (&ends, line)),
+                )
+            }
+        };
+        Beam { mesh, first_of_block, found: found.unwrap(), kept }
+    }
+
+    /// What is found after displacements of all degrees of freedom.
+    fn after(&self, u: impl Fn(usize) -> f64) -> Penetration {
+        let of_node = |node, axis| u(2 * node + axis);
+        self.kept.penetration(&self.found, of_node, &mut unlimited()).unwrap()
+    }
+
+    /// The beam bends by Euler and Bernoulli's curve, the block moves by `block`.
+    fn bent(&self, tip: f64, block: f64) -> Penetration {
+        self.after(|dof| match (dof < self.first_of_block, dof % 2) {
+            (true, 1) => bend(self.mesh.nodes[dof / 2][0], tip),
+            (false, 1) => block,
+            _ => 0.0,
+        })
+    }
+}
+
+/// Nothing holds the beam, and its tip passes through by what it bends more than the gap, at every size of elements. Before
+/// the tip is there, nothing is told. Nodes and middles of faces are counted where the curve is below.
+#[test]
+fn what_nothing_holds_is_told_with_its_depth() {
+    for columns in [2, 5, 20, 80] {
+        for below in [Below::Block, Below::Plane, Below::Line] {
+            let beam = Beam::new(columns, below, Some(1.0));
+            assert!(beam.found.pairs.is_empty());
+            for (tip, block) in [(0.0, 0.0), (5.999, 0.0), (7.0, 0.0), (9.0, 0.0), (6.5, 0.25)] {
+                let context = format!("{columns}, {below:?}, {tip}");
+                let found = beam.bent(tip, block);
+                let level = -GAP + if below == Below::Block { block } else { 0.0 };
+                let depth = level - bend(LENGTH, tip);
+                if depth < 0.0 {
+                    assert_eq!(found, Penetration::default(), "{context}");
+                    continue;
+                }
+                let step = LENGTH / columns as f64;
+                assert!((found.depth - depth).abs() < 1e-12 * GAP, "{context}: {found:?}, {depth}");
+                assert_eq!((found.node, found.face), (Some(columns), columns - 1), "{context}");
+                assert_eq!(found.master.is_none(), below == Below::Plane, "{context}");
+                assert!((found.point[1] - bend(LENGTH, tip)).abs() < 1e-12, "{context}");
+                let x = |k: usize| step * k as f64 / 2.0;
+                let middle = |k: usize| match k % 2 {
+                    0 => bend(x(k), tip),
+                    _ => 0.5 * (bend(x(k - 1), tip) + bend(x(k + 1), tip)),
+                };
+                let count = (0..=2 * columns).filter(|&k| middle(k) < level).count();
+                assert_eq!(found.count, count, "{context}");
+            }
+        }
+    }
+}
+
+/// The solution of a beam that its pairs hold: nothing has passed through, although the same load bends it by 1.5 gaps
+/// without them.
+#[test]
+fn where_contact_holds_nothing_is_told() {
+    for (columns, below) in
+        [10, 20, 40].into_iter().flat_map(|n| [(n, Below::Block), (n, Below::Plane)])
+    {
+        for distance in [Some(8.0), Some(1.0)] {
+            let beam = Beam::new(columns, below, distance);
+            let stiffness = beam.mesh.stiffness();
+            let arrays = beam.found.rows();
+            let pairs = ContactPairs {
+                dim: 2,
+                count: arrays.count,
+                master_start: &arrays.master_start,
+                masters: &arrays.masters,
+                weights: &arrays.weights,
+                normals: &arrays.normals,
+                tangents: Some(&arrays.tangents),
+                ..ContactPairs::default()
+            };
+            let clamped = (0..beam.mesh.nodes.len()).filter(|&node| {
+                let [x, y] = beam.mesh.nodes[node];
+                if y < -1.0 { y < -GAP - 1.5 } else { x == 0.0 && y > 0.0 }
+            });
+            let fixed: Vec<usize> = clamped.flat_map(|node| [2 * node, 2 * node + 1]).collect();
+            let model = Model::sparse(&stiffness.view(), &fixed, &pairs).unwrap();
+            // w = P L^3 / 3 E I with I = 1 / 12, but for what linear quadrilaterals are too stiff.
+            let force = 1.5 * GAP * 3.0 * 1000.0 / 12.0 / LENGTH.powi(3);
+            let mut load = vec![0.0; beam.mesh.size()];
+            load[2 * columns + 1] = -4.0 * force;
+            let case = LoadCase {
+                load: &load,
+                prescribed: None,
+                gap: &arrays.gaps,
+                law: FrictionLaw::Frictionless,
+                reference_slip: None,
+            };
+            let settings = Settings::default();
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            assert_eq!(solution.status, Status::Solved);
+            let u = model.recover(Some(&load), None, &solution.d).unwrap();
+            let found = beam.after(|dof| u[dof]);
+            let context = format!("{columns}, {below:?}, {distance:?}: {found:?}");
+            let tip = -u[2 * columns + 1];
+            if distance == Some(8.0) {
+                assert_eq!(found, Penetration::default(), "{context}");
+                assert!(solution.certificate.force.iter().any(|force| *force < 0.0), "{context}");
+            } else {
+                assert!(tip > 1.2 * GAP, "{context}, {tip}");
+                assert!(found.depth >= tip - GAP, "{context}, {tip}");
+            }
+        }
+    }
+}
