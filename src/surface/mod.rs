@@ -20,6 +20,7 @@
 //! # Ok::<(), signorini::Error>(())
 //! ```
 
+mod adjust;
 mod beyond;
 mod bilinear;
 mod candidates;

@@ -6,6 +6,7 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod surfaces;
 
+mod adjust;
 mod bodies;
 mod both_ways;
 mod choices;
