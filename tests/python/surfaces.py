@@ -40,6 +40,15 @@ def arrays_of(path):
 
 
 class Pairs(unittest.TestCase):
+    def test_the_share_of_the_summary_is_that_of_all_faces_given(self):
+        """Of three slave faces of the length 1 one lies over a near master, one over a far one, and one over nothing."""
+        x = [[0, 0], [1, 0], [2, 0], [3, 0], [0, -0.1], [1, -0.1], [1.2, -9], [1.8, -9]]
+        found = signorini.pair_surfaces(x, [[0, 1], [1, 2], [2, 3]], [[5, 4], [7, 6]], search_distance=0.5, rims="keep")
+        self.assertIn("on 33.33 % of the slave area", found.summary)
+        self.assertIn("1 slave faces point at a master beyond the search distance of 0.5, the nearest, face 1, at 9",
+                      found.summary)
+        self.assertEqual((found.uncovered.tolist(), found.beyond.tolist()), ([1, 2], [1]))
+
     def test_by_hand(self):
         contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
         self.assertEqual((contact.dim, contact.pairs), (2, 2))
