@@ -648,6 +648,11 @@ module signorini
             import
             type(c_ptr), value :: contact, slip0, d, force, point, resultant
         end function
+        integer(c_int32_t) function signorini_surface_adjust(contact, within, coordinates) bind(C)
+            import
+            type(c_ptr), value :: contact, coordinates
+            real(c_double), value :: within
+        end function
         integer(c_int32_t) function signorini_surface_penetration(contact, u, penetration) bind(C)
             import
             type(c_ptr), value :: contact, u, penetration
@@ -798,6 +803,7 @@ module signorini
         procedure :: fields => surfaces_fields
         procedure :: resultant => surfaces_resultant
         procedure :: penetration => surfaces_penetration
+        procedure :: adjust => surfaces_adjust
         procedure :: write => surfaces_write
         procedure :: release => surfaces_release
     end type
@@ -2002,6 +2008,21 @@ contains
             ', it must have those of all degrees of freedom')
         if (refused(wrong, info, message)) return
         call finish(signorini_surface_penetration(self%handle, address(u), c_loc(found)), info, message, &
+            [CONTACT_WRONG_MODEL, 1, 2])
+    end subroutine
+
+    ! Moves slave nodes so that the two points of each pair meet that are no further apart than within; coordinates are
+    ! those that were paired. Assemble with the moved nodes, and pair again.
+    subroutine surfaces_adjust(self, within, coordinates, info, message)
+        class(contact_surfaces), intent(in) :: self
+        real(c_double), intent(in) :: within
+        real(c_double), intent(inout), contiguous, target :: coordinates(:, :)
+        integer, intent(out) :: info
+        character(len=*), intent(out), optional :: message
+        type(refusal) :: wrong
+        call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        if (refused(wrong, info, message)) return
+        call finish(signorini_surface_adjust(self%handle, within, c_loc(coordinates)), info, message, &
             [CONTACT_WRONG_MODEL, 1, 2])
     end subroutine
 

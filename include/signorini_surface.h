@@ -321,6 +321,18 @@ int32_t signorini_surface_view(const signorini_surface_pairs *contact,
 
 typedef struct signorini_contact_zone signorini_contact_zone;
 
+/**
+ * Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
+ * whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
+ * Assemble your matrix with the moved nodes, and pair again.
+ *
+ * @param contact      the pairs
+ * @param within       largest distance that is closed, also +infinity; length
+ * @param coordinates  in: those that were paired, dim for each node; out: moved
+ */
+int32_t signorini_surface_adjust(const signorini_surface_pairs *contact, double within,
+                                 double *coordinates);
+
 /** A contact zone for signorini_surface_join. */
 struct signorini_contact_zone {
     uint32_t struct_size;                   /**< sizeof(signorini_contact_zone). */

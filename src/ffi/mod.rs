@@ -56,6 +56,7 @@ mod surface;
 mod surface_fields;
 mod surface_join;
 mod surface_new;
+mod surface_adjust;
 mod surface_penetration;
 mod surface_settings;
 mod surface_view;

@@ -214,7 +214,7 @@ static void bad_arguments(void)
         signorini_problem_write(p, 2, 2, K, 4, NULL, gap, COULOMB, mu, slip0, NULL));
     BAD(-7, "gap is NULL",
         signorini_problem_write(p, 2, 2, K, 4, f, NULL, COULOMB, mu, slip0, NULL));
-    BAD(-8, "law is 7", signorini_problem_write(p, 2, 2, K, 4, f, gap, 7, mu, slip0, NULL));
+    BAD(-8, "law is 8", signorini_problem_write(p, 2, 2, K, 4, f, gap, 8, mu, slip0, NULL));
     BAD(-9, "friction is NULL",
         signorini_problem_write(p, 2, 2, K, 4, f, gap, COULOMB, NULL, slip0, NULL));
     BAD(-9, "g of each pair",

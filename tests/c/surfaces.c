@@ -614,6 +614,16 @@ static void refused_results(void)
     CHECK_STATUS(signorini_surface_fields(contact, NULL, NULL, d, F, NULL, &fields), -6);
     CHECK_STATUS(signorini_surface_resultant(contact, NULL, d, F, NULL, NULL), -6);
     CHECK_STATUS(signorini_surface_penetration(contact, NULL, NULL), -2);
+    CHECK_STATUS(signorini_surface_adjust(contact, 1, NULL), -3);
+    /* The line 0.1 above comes down; what is further apart than `within` stays. */
+    double moved[10];
+    for (int k = 0; k < 3; k++) {
+        const double within[3] = {-1, 0.05, 0.2};
+        memcpy(moved, plane_nodes, sizeof moved);
+        CHECK_STATUS(signorini_surface_adjust(contact, within[k], moved), k == 0 ? -2 : 0);
+        for (int i = 0; i < 10; i++)
+            CHECK_NEAR(moved[i], k == 2 && (i == 1 || i == 3) ? 0 : plane_nodes[i]);
+    }
     mesh.nodes = 4;
     const signorini_zone zone = {.struct_size = sizeof zone, .contact = contact, .d = d, .F = F};
     CHECK_STATUS(signorini_mesh_write("x.vtu", &mesh, NULL, 1, &zone, 0, NULL), -5);

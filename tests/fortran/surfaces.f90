@@ -14,6 +14,7 @@ program surfaces_test
     type(contact_model) :: model
     type(signorini_resultant) :: sums
     type(signorini_penetration) :: passed
+    real(c_double), allocatable :: moved(:, :)
     type(signorini_obstacle) :: plane
     real(dp) :: d(4), force(4), load(10), pressure(5), traction(2, 5), clearance(5), apart(2, 5), u(10)
     integer :: info, failed, i, state(2), node_state(5), starts(11), rows(10)
@@ -74,6 +75,9 @@ program surfaces_test
         all(abs(clearance(:2)) < 1d-9) .and. all(node_state == SIGNORINI_STATE_SLIP))
     call surfaces%penetration(u, passed, info, message=message)
     call expect('nothing has passed', info == 0 .and. message == '' .and. passed%points == 0)
+    moved = places
+    call surfaces%adjust(1d-9, moved, info, message=message)
+    call expect('all are further apart', info == 0 .and. message == '' .and. all(abs(moved - places) <= 0))
     call surfaces%write('surfaces.vtu', places, master, 3, d, force, info, u, state, message=message)
     call expect('file', info == 0 .and. message == '')
     open (newunit=i, file='surfaces.vtu', status='old')

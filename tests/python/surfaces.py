@@ -49,6 +49,14 @@ class Pairs(unittest.TestCase):
                       found.summary)
         self.assertEqual((found.uncovered.tolist(), found.beyond.tolist()), ([1, 2], [1]))
 
+    def test_adjusted(self):
+        contact, down = signorini.pair_surfaces(NODES, SLAVE, MASTER), NODES.copy()
+        down[:2, 1] = 0
+        np.testing.assert_allclose(contact.adjusted(), down, atol=1e-15)
+        np.testing.assert_array_equal(contact.adjusted(0.05), NODES)
+        with self.assertRaisesRegex(signorini.SignoriniError, "within is -1, it must not be negative"):
+            contact.adjusted(-1)
+
     def test_by_hand(self):
         contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
         self.assertEqual((contact.dim, contact.pairs), (2, 2))

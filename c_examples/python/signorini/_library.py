@@ -51,6 +51,7 @@ SIGNATURES = {
     "surface_table": (i32, [*[address] * 4, text, i64]),
     "surface_fields": (i32, [address] * 7),
     "surface_resultant": (i32, [address] * 6),
+    "surface_adjust": (i32, [address, real, address]),
     "surface_penetration": (i32, [address] * 3),
     "mesh_write": (i32, [text, address, address, i64, address, i64, address]),
     "problem_write": (i32, [text, *_CONDENSED, text]),

@@ -254,6 +254,16 @@ class SurfacePairs:
         return Resultant(np.array(sums.force), np.array(sums.moment), sums.friction_work,
                          sums.pressed_area)
 
+    def adjusted(self, within=np.inf):
+        """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet, once.
+
+        within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn.
+        Assemble K with these coordinates, and pair them again.
+        """
+        coordinates = self._coordinates.copy()
+        self._do("surface_adjust", float(within), at(coordinates))
+        return coordinates
+
     def penetration(self, u):
         """What has passed through the other side without a pair: a Penetration, or None if nothing has.
 
