@@ -27,7 +27,10 @@ pub unsafe extern "C" fn signorini_surface_adjust(
         let mut moved = place.read();
         let monitor = &mut Monitor::new(&Settings::default(), None);
         contact.found.adjust(within, &mut moved, monitor).map_err(|error| {
-            Failure::from_error(error, |argument| if argument == Argument::Settings { 2 } else { 3 })
+            Failure::from_error(
+                error,
+                |argument| if argument == Argument::Settings { 2 } else { 3 },
+            )
         })?;
         place.write(&moved);
         Ok(0)

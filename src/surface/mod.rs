@@ -31,6 +31,7 @@ mod curved;
 mod curved_patch;
 mod exact_shape;
 mod face;
+mod facets;
 mod fields;
 mod fitted_normals;
 mod mesh;

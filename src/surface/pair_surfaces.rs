@@ -8,7 +8,7 @@ use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
-use super::{mortar, node_to_surface, self_overlap};
+use super::{facets, mortar, node_to_surface, self_overlap};
 #[cfg(doc)]
 use crate::error::Argument;
 use crate::error::Error;
@@ -68,7 +68,9 @@ pub(super) fn pair_sides(
             node_to_surface::pairs(sides, dim, &planes, candidates, settings.normals, watch)
         }
     };
-    unit.of_host(found?, settings)
+    let mut found = unit.of_host(found?, settings)?;
+    found.report.overlapping_and_rough = facets::overlapping_and_rough(&slave, &found);
+    Ok(found)
 }
 
 /// How far masters are looked for, and how far away any face may be.

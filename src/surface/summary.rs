@@ -18,6 +18,13 @@ impl SurfacePairs {
                 short(*distance)
             );
         }
+        let [overlapping, rough] = self.report.overlapping_and_rough;
+        if rough > 0 && rough >= overlapping / A_PART {
+            text += &format!(
+                "; on {rough} of {overlapping} slave faces that overlap the other side gaps differ by more than their mean: if the \
+                 surfaces are curved, their facets are larger than the interference; give their true shapes"
+            );
+        }
         text.into()
     }
 
@@ -60,6 +67,9 @@ impl SurfacePairs {
         }
     }
 }
+
+/// One of so many overlapping faces with gaps that differ is a wedge or an edge; more are facets.
+const A_PART: usize = 4;
 
 /// Lengths in here are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e4;

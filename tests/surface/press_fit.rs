@@ -171,6 +171,23 @@ fn rings_have_the_pressure_of_lame() {
     }
 }
 
+/// The facets of 40 on 13 elements stand apart by up to 30 times the interference: the summary says so, and with true shapes
+/// there is nothing to say.
+#[test]
+fn facets_that_are_larger_than_the_interference_are_told() {
+    let fit = Fit::new([40, 13], Order::Linear, 0.0);
+    for (shape, is_told) in [(TrueShape::Facets, true), (CIRCLE, false)] {
+        let settings =
+            SurfaceSettings { shapes: [shape; 2], clearance: -INTERFERENCE, ..Default::default() };
+        let summary = fit.pairs(false, &settings).summary().to_string();
+        assert_eq!(
+            summary.contains("facets are larger than the interference"),
+            is_told,
+            "{summary}"
+        );
+    }
+}
+
 /// The gap that facets have themselves differs from pair to pair by more than the interference: what the shapes are for.
 /// Closed and shifted by the interference it is the same for all pairs, and the pressure is right too.
 #[test]
