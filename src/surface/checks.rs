@@ -32,8 +32,8 @@ impl Side<'_> {
             let normal = face.outward(place);
             if !(normal.norm() > least && normal.dot(&middle) > 0.0) {
                 let what = format!(
-                    "is folded at node {}: check the order of its nodes, and that corners are \
-                     convex and mid nodes near the middle of their edges",
+                    "is folded at node {}: check the order of its nodes, the number from which \
+                     they count, and that corners are convex and mid nodes near the middle of their edges",
                     index(face.nodes[i])
                 );
                 return Err(self.refuse(at, &what));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::candidates::SearchFaces;
-use super::exact_shape::Obstacle;
+use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::{Faces, Side};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::Row;
@@ -66,6 +66,7 @@ pub fn pair_with_obstacle(
         facing.insert(node, met);
     }
     let report = SurfaceReport {
+        looking_away: looking_away(&side, &obstacle),
         search_distance: reach,
         slave_faces: side.count(),
         ..SurfaceReport::default()
@@ -83,4 +84,14 @@ pub fn pair_with_obstacle(
         planes.hold(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
     unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, settings)
+}
+
+/// Number of faces whose middles look away from a shape.
+fn looking_away(side: &Side<'_>, shape: &ExactShape) -> usize {
+    let looks_away = |at: &usize| {
+        let (face, middle) = (side.face(*at), side.face(*at).kind.centre());
+        let met = shape.facing(face.position(middle));
+        met.is_some_and(|(_, normal)| normal.dot(&face.outward(middle)) <= 0.0)
+    };
+    (0..side.count()).filter(looks_away).count()
 }

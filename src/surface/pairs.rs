@@ -70,6 +70,8 @@ pub struct SurfaceReport {
     pub not_opposed: usize,
     /// Boxes that the search looked at: its cost.
     pub boxes_searched: usize,
+    /// Slave faces that look away from an obstacle that is a shape.
+    pub looking_away: usize,
     /// Slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that:
     /// the facets are larger than the interference.
     pub overlapping_and_rough: [usize; 2],

@@ -8,6 +8,16 @@ impl SurfacePairs {
     /// One sentence on what was found, of indices that count from 0: for a log, and to see why there are no pairs.
     pub fn summary(&self) -> Message {
         let mut text = if self.pairs.is_empty() { self.why_none() } else { self.found() };
+        if self.report.looking_away > 0 && self.report.looking_away == self.report.slave_faces {
+            text += "; all slave faces look away from the obstacle: is its direction turned round, or is it hollow?";
+        }
+        let [overlapping, rough] = self.report.overlapping_and_rough;
+        if rough > 0 && rough >= overlapping / A_PART {
+            text += &format!(
+                "; on {rough} of {overlapping} slave faces that overlap the other side gaps differ by more than their mean: if the \
+                 surfaces are curved, their facets are larger than the interference; give their true shapes"
+            );
+        }
         let nearest = self.report.beyond.iter().min_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((face, distance)) = nearest {
             text += &format!(
@@ -16,13 +26,6 @@ impl SurfacePairs {
                 short(self.report.search_distance),
                 index(face),
                 short(*distance)
-            );
-        }
-        let [overlapping, rough] = self.report.overlapping_and_rough;
-        if rough > 0 && rough >= overlapping / A_PART {
-            text += &format!(
-                "; on {rough} of {overlapping} slave faces that overlap the other side gaps differ by more than their mean: if the \
-                 surfaces are curved, their facets are larger than the interference; give their true shapes"
             );
         }
         text.into()

@@ -109,6 +109,38 @@ class Mistakes(unittest.TestCase):
                 self.assertEqual(result.report.remarks, remark)
             print(f"| {mistake} | Python | {result.status.name} | {result.report.remarks!r} |")
 
+    def test_a_plane_that_points_away(self):
+        for outward, is_told in ([0, 1], False), ([0, -1], True):
+            contact = signorini.pair_obstacle(SQUARE, [[0, 1]], signorini.Plane([0, 0], outward))
+            self.assertEqual("all slave faces look away from the obstacle" in contact.summary, is_told)
+        print(f"| a plane that points away | Python | summary | {contact.summary} |")
+
+    def test_all_pairs_open(self):
+        self.assertIn("solved; every pair is open", model().solve(PRESS, 9.0).message)
+        self.assertEqual(model().solve(PRESS, 0).message, "solved")
+
+    def test_no_pairs(self):
+        far = SQUARE + np.outer(np.arange(8) > 3, [0, 90])
+        contact = signorini.pair_surfaces(far, [[4, 5]], [[3, 2]])
+        with self.assertWarnsRegex(UserWarning, "zone 'cut': no pairs: .*larger search distance"):
+            Model.from_surfaces((np.ones(16), np.arange(16), np.arange(17)), {"cut": contact})
+
+    def test_matrices_of_two_meshes(self):
+        """A square on a wider one, whose matrices are exchanged, and of which one is left out."""
+        def mesh(low, cells):
+            across = np.linspace(0, 1, cells + 1)
+            x = np.array([[a, b] for b in (low, low + 1) for a in across])
+            return x, {"quad": [[i, i + 1, i + cells + 2, i + cells + 1] for i in range(cells)]}
+
+        def springs(size):
+            return np.ones(size), np.arange(size), np.arange(size + 1)
+        meshes = mesh(1, 2), mesh(0, 1)
+        with self.assertRaisesRegex(ValueError, "8 and 12 columns, .* 12 and 8 degrees of freedom: exchange them"):
+            Model.from_meshes((springs(8), springs(12)), *meshes)
+        with self.assertRaisesRegex(ValueError, "K has 12 columns, the two meshes have 20 degrees of freedom"):
+            Model.from_meshes(springs(12), *meshes)
+        self.assertEqual(Model.from_meshes((springs(12), springs(8)), *meshes).host_size, 20)
+
     def test_a_plane_of_symmetry_that_is_not_named(self):
         springs, left = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6])
 

@@ -49,6 +49,22 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     return _covered(np.vstack([first.coordinates, second.coordinates]), faces, others, pairing)
 
 
+def check_sizes(sizes, slave, master):
+    """Refuses matrices of which so many columns are not those of the meshes; their nodes have dim degrees of freedom."""
+    meshes = [_Mesh("slave", slave)]
+    if master is not slave and not isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
+        meshes.append(_Mesh("master", master))
+    asked = [mesh.coordinates.size for mesh in meshes]
+    if len(sizes) == 1 and sizes[0] < sum(asked):
+        both = "the two meshes have" if len(asked) == 2 else "the mesh has"
+        raise ValueError(f"K has {sizes[0]} columns, {both} {sum(asked)} degrees of freedom: give the matrix of all"
+                         + (", or (K of the slave's mesh, K of the master's)" if len(asked) == 2 else ""))
+    if len(sizes) == 2 and sizes != asked:
+        exchanged = "exchange them" if sizes == asked[::-1] else "give one for each mesh, that of the slave first"
+        raise ValueError(f"the two matrices have {sizes[0]} and {sizes[1]} columns, the meshes of slave and master "
+                         f"{' and '.join(map(str, asked))} degrees of freedom: {exchanged}")
+
+
 def _covered(coordinates, slave, master, pairing):
     """Pairs without the slave faces that lie over nothing and look elsewhere than those beside them that lie over the
     master: they would bend the normals of the nodes at the rim. Counts and areas are those of all faces given."""

@@ -13,10 +13,10 @@ from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
 from ._library import SignoriniError, check, library
-from ._meshes import pair_meshes
+from ._meshes import check_sizes, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
-from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
+from ._sparse import ContactPairs, Matrix, columns_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import warn_of_planes
@@ -204,6 +204,8 @@ class Model:
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
+            if not one.pairs:
+                warnings.warn(f"zone {name!r}: {one.summary}" if name else one.summary, stacklevel=2)
         rows = (zones or contact).with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
@@ -222,8 +224,10 @@ class Model:
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
-        if isinstance(K, (tuple, list)) and len(K) == 2:
-            K = side_by_side(K)
+        parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
+        if not {"dofs", "dofs_per_node"} & set(pairing):
+            check_sizes([columns_of(part) for part in parts], slave, master)
+        K = side_by_side(parts) if len(parts) == 2 else K
         return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle, **(settings or {}))
 
     @property

@@ -7,7 +7,7 @@ from collections import namedtuple
 import numpy as np
 
 from ._arrays import at
-from ._constants import Proof, Status
+from ._constants import Proof, State, Status
 from ._library import check
 from ._structures import Extra, Report, sized
 
@@ -131,6 +131,8 @@ class Output:
             self.d[case] = np.nan
         else:
             report = self.report[case].plain()
+            if status == Status.SOLVED and len(self.state[case]) and (self.state[case] == State.OPEN).all():
+                message += "; every pair is open: if they should touch, look at gaps, normals and loads"
             if self.report[case].second:
                 # The forces and states are those that the library found with it.
                 second = measure(self.second_d[case])._replace(

@@ -137,6 +137,11 @@ def supports(fixed):
     return indices(fixed)
 
 
+def columns_of(K):
+    """Number of columns of a sparse matrix."""
+    return len(_compressed("K", K)[2]) - 1
+
+
 def side_by_side(matrices):
     """Two matrices as one, (data, indices, indptr): the blocks of its diagonal."""
     parts = [_compressed("K", K) for K in matrices]
