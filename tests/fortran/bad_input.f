@@ -39,10 +39,10 @@ C
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('short LDK', INFO, -4, NFAIL)
       CALL SAYS('NDIM * NPAIR', NFAIL)
-      CALL SGSOLV(2, 2, K, 4, F, GAP, 7, MU, SLIP0, 0,
+      CALL SGSOLV(2, 2, K, 4, F, GAP, 8, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('no such LAW', INFO, -7, NFAIL)
-      CALL SAYS('LAW is 7', NFAIL)
+      CALL SAYS('LAW is 8', NFAIL)
       CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 9,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('no such METHOD', INFO, -10, NFAIL)
