@@ -201,9 +201,9 @@ C     pressed by 1 with the coefficient 0.6 along t1: d_t1 = f_t1 - 0.6.
          CALL EXPECT('mu1 is 0', INFO, -8, NFAIL)
          CALL SAYS('friction(1) (mu1 of pair 1) is 0', NFAIL)
    20 CONTINUE
-      CALL SGSOLV(3, 1, K3, 3, F3, GAP, 6, AXES, SLIP0, 0, 0D0, 0,
+      CALL SGSOLV(3, 1, K3, 3, F3, GAP, 8, AXES, SLIP0, 0, 0D0, 0,
      &            D, R, STATE, ETA, ITER, INFO)
-      CALL EXPECT('no law 6', INFO, -7, NFAIL)
+      CALL EXPECT('no law 8', INFO, -7, NFAIL)
       END
 
 C     The last sentence has these words.
