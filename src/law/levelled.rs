@@ -37,7 +37,9 @@ impl LevelledTangents {
     /// Those of a pair with the block of stiffness `[[a, b], [b, c]]` of its tangents; `None` where both stiffnesses are of one
     /// size, and where the pair has an ellipse of its own.
     pub fn of(law: &PairLaw, [a, b, c]: [f64; 3]) -> Option<Self> {
-        if law.dim != 3 || law.ellipse.is_some() {
+        // With the quotient r of both stiffnesses (1 + r)² / r is trace² / det: eigenvalues are asked for where that is large.
+        let is_even = (a + c).powi(2) <= UNLIKE * (a * c - b * b);
+        if law.dim != 3 || law.ellipse.is_some() || is_even {
             return None;
         }
         let ([softer, stiffer], [x, y]) = stiffness_axes(a, b, c);

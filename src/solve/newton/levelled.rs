@@ -19,11 +19,11 @@ pub struct Levelled {
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Option<Levelled> {
     let (contact, problem) = (call.contact, call.contact.problem());
     let of_pair = |(pair, law)| LevelledTangents::of(law, problem.tangential_block(pair));
-    let tangents: Vec<Option<LevelledTangents>> =
-        contact.pairs().iter().enumerate().map(of_pair).collect();
-    if !problem.is_symmetric() || tangents.iter().all(Option::is_none) {
+    let tangents = || contact.pairs().iter().enumerate().map(of_pair);
+    if !problem.is_symmetric() || tangents().all(|of_pair| of_pair.is_none()) {
         return None;
     }
+    let tangents: Vec<Option<LevelledTangents>> = tangents().collect();
     let size = contact.unknowns();
     let matrix = congruent(problem.stiffness(), &tangents);
     let load = changed(problem.load(), &tangents, LevelledTangents::force);
