@@ -47,12 +47,12 @@ program surfaces_test
 
     ! The same pairs as a zone with a name and a law: a tie moves as one, 1 on springs of 2 and 2 where the lower line has
     ! a node below, and half as stiff a share elsewhere; what it carries is what acts on the upper line less its springs.
-    call joined%join([surfaces], ['the bolt'], info, [SIGNORINI_LAW_TIED], message=message)
+    call joined%join([surfaces], ['the bolt'], info, [int(SIGNORINI_LAW_TIED)], message=message)
     call expect('join', info == 0 .and. message == '' .and. joined%pairs == 2 .and. all(joined%zone_start == [0, 2]))
     call expect('friction', all(abs(joined%friction - [7, 0, 0, 0, 7, 0, 0, 0]) < 1d-15))
     call expect('summary of zones', index(joined%summary(), 'the bolt: 2 pairs on') == 1)
     call model%new_surfaces(starts, rows, [(2._dp, i=1, 10)], SIGNORINI_TRIANGLE_LOWER, joined, info)
-    call model%solve(load, [0._dp, 0._dp], d, force, info, law=SIGNORINI_LAW_BY_PAIR, friction=joined%friction, &
+    call model%solve(load, [0._dp, 0._dp], d, force, info, law=int(SIGNORINI_LAW_BY_PAIR), friction=joined%friction, &
         state=state)
     call expect('tie', info == 0 .and. all(state == SIGNORINI_STATE_STICK) .and. all(d == 0))
     call joined%resultant(d, force, sums, info)
