@@ -317,10 +317,6 @@ struct signorini_surface_data {
 int32_t signorini_surface_view(const signorini_surface_pairs *contact,
                                signorini_surface_data *data);
 
-/* ---- Several contact zones ----------------------------------------------------------------- */
-
-typedef struct signorini_contact_zone signorini_contact_zone;
-
 /**
  * Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
  * whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
@@ -332,6 +328,10 @@ typedef struct signorini_contact_zone signorini_contact_zone;
  */
 int32_t signorini_surface_adjust(const signorini_surface_pairs *contact, double within,
                                  double *coordinates);
+
+/* ---- Several contact zones ----------------------------------------------------------------- */
+
+typedef struct signorini_contact_zone signorini_contact_zone;
 
 /** A contact zone for signorini_surface_join. */
 struct signorini_contact_zone {
