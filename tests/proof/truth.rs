@@ -289,13 +289,13 @@ fn a_result_is_proved_on_request() {
     assert!(proved >= 97, "{proved}");
 }
 
-/// Where a refinement ran, the errors that its contraction tells are those of the answer, of ill-conditioned
-/// problems, which need one: an estimate, which one problem in a hundred exceeds.
+/// Where a refinement ran, the errors that its contraction tells are those of the answer: of ill-conditioned
+/// problems, which need one.
 #[test]
 fn refinement_tells_its_errors() {
     let mut rng = Rng::with_seed(14);
     let (mut told, mut held) = (0, 0);
-    for _ in 0..1000 {
+    for _ in 0..300 {
         let dim = rng.usize(2..4);
         let condition = 10_f64.powf(uniform(&mut rng, 7.0, 11.0));
         let case = random(&mut rng, dim, condition, 1.0);
@@ -308,5 +308,5 @@ fn refinement_tells_its_errors() {
         held += usize::from(size(&off) <= errors.d * size(&solution.d));
     }
     println!("{held} of {told} hold");
-    assert!(told > 500 && 100 * held >= 98 * told);
+    assert!(told > 50 && 100 * held >= 99 * told);
 }

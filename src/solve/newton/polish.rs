@@ -158,9 +158,10 @@ impl Steps {
         self.gain.force = self.gain.force.max(change / from);
     }
 
-    /// The errors that are left with the residual `eta` and its rounding, beside the rounding of the answer.
+    /// The errors that are left with the residual `eta` and its rounding, beside the rounding of the answer. A residual stands
+    /// for up to twice the error of those of the steps before: what is left may point elsewhere.
     fn errors(&self, at: &Candidate, load: &[f64], eta: f64) -> Option<Errors> {
-        let left = (eta + ROUNDING_OF_ETA) / (1.0 - self.contraction);
+        let left = 2.0 * (eta + ROUNDING_OF_ETA) / (1.0 - self.contraction);
         let part = |gain: f64, size: f64| {
             let error = if gain > 0.0 { gain * left / size } else { 0.0 };
             error + f64::EPSILON
