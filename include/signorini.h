@@ -59,7 +59,7 @@
  * frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call. The library
  * starts threads only where settings.threads asks for them. Calls need 64 KiB of stack.
  *
- * The library never prints, exits, reads the environment, handles signals or opens a file that you
+ * The library never prints, exits, reads the environment, handles signals or opens files that you
  * do not name. Inside a call floating-point traps and flush-to-zero are off; on return they are
  * as before. The same input gives the same bits on the same machine.
  *
@@ -74,6 +74,9 @@
 #define SIGNORINI_H
 
 #include <stdint.h>
+#if UINTPTR_MAX <= 0xffffffffu
+#error "signorini needs 64 bits"
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -420,7 +423,7 @@ struct signorini_model_data {
     const double *frames;
 };
 
-/** Fills data, whose struct_size you set before. Its arrays live as long as the model. */
+/** Fills data, whose struct_size you set. Its arrays live as long as the model. */
 int32_t signorini_model_view(const signorini_model *model, signorini_model_data *data);
 
 /* ============================================================================================
@@ -428,9 +431,9 @@ int32_t signorini_model_view(const signorini_model *model, signorini_model_data 
  * ========================================================================================== */
 
 /**
- * Solves load cases. Every array has a column for each case, without space
- * between the columns. A case that is wrong or not solved does not stop the others. Only the
- * status is written of a case that is wrong, or had not begun when the callback cancelled.
+ * Solves load cases. Every array has a column for each case, without space between. A case that is
+ * wrong or not solved does not stop the others. Only the status is written of a case that is
+ * wrong, or had not begun when the callback cancelled.
  *
  * Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
  * that stay open: they cost less than one by one, and the last digits depend on the cases before.
@@ -444,7 +447,7 @@ int32_t signorini_model_view(const signorini_model *model, signorini_model_data 
  *                     settings->warm_start
  * @param F            out: contact forces, N a case
  * @param status       out: status of each case, -k for the k-th argument of this call; may be NULL
- * @param report       out: one for each case, each with its struct_size set; may be NULL
+ * @param report       out: one a case, each with its struct_size set; may be NULL
  * @param state,extra  as for signorini_solve
  * @return 0: every case is solved; otherwise the status of the first that is not, which
  *         signorini_last_error names
@@ -790,7 +793,7 @@ int32_t signorini_lcp_solve(int64_t n, const double *M, int64_t ldm, const doubl
 /** Version, such as "0.9.0"; static text. */
 const char *signorini_version(void);
 
-/** Binary interface of the library; compare it with SIGNORINI_ABI_VERSION after dlopen. */
+/** Binary interface of the library; after dlopen compare SIGNORINI_ABI_VERSION. */
 int32_t signorini_abi_version(void);
 
 /* ============================================================================================

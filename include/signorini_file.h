@@ -102,7 +102,7 @@ struct signorini_problem_data {
     const char *remark;   /**< The remark of the file, UTF-8; empty if there is none. */
 };
 
-/** Fills data, whose struct_size you set before. Its arrays live as long as the problem. */
+/** Fills data, whose struct_size you set. Its arrays live as long as the problem. */
 int32_t signorini_problem_view(const signorini_problem *problem, signorini_problem_data *data);
 
 #ifdef __cplusplus

@@ -313,7 +313,7 @@ struct signorini_surface_data {
     const double *friction;
 };
 
-/** Fills data, whose struct_size you set before. Its arrays live as long as the pairs. */
+/** Fills data, whose struct_size you set. Its arrays live as long as the pairs. */
 int32_t signorini_surface_view(const signorini_surface_pairs *contact,
                                signorini_surface_data *data);
 

@@ -96,6 +96,9 @@
 //!   (1992) 691–714.
 //! - D. M. Young: *Iterative Solution of Large Linear Systems*. Academic Press, 1971.
 
+#[cfg(not(target_pointer_width = "64"))]
+compile_error!("signorini needs 64 bits");
+
 #[forbid(unsafe_code)]
 pub mod certificate;
 #[cfg(not(feature = "counters"))]

@@ -24,9 +24,9 @@ use crate::workers::{SingleThread, Workers};
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
 
-/// Solves load cases. Every array has a column for each case, without space
-/// between the columns. A case that is wrong or not solved does not stop the others. Only the
-/// status is written of a case that is wrong, or had not begun when the callback cancelled.
+/// Solves load cases. Every array has a column for each case, without space between. A case that is
+/// wrong or not solved does not stop the others. Only the status is written of a case that is
+/// wrong, or had not begun when the callback cancelled.
 ///
 /// Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
 /// that stay open: they cost less than one by one, and the last digits depend on the cases before.
@@ -40,7 +40,7 @@ const START: i32 = 10;
 ///                     settings->warm_start
 /// @param F            out: contact forces, N a case
 /// @param status       out: status of each case, -k for the k-th argument of this call; may be NULL
-/// @param report       out: one for each case, each with its struct_size set; may be NULL
+/// @param report       out: one a case, each with its struct_size set; may be NULL
 /// @param state,extra  as for signorini_solve
 /// @return 0: every case is solved; otherwise the status of the first that is not, which
 ///         signorini_last_error names

@@ -53,7 +53,7 @@ pub struct SignoriniModelData {
     pub frames: *const f64,
 }
 
-/// Fills data, whose struct_size you set before. Its arrays live as long as the model.
+/// Fills data, whose struct_size you set. Its arrays live as long as the model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_view(
     model: *const SignoriniModel,

@@ -81,7 +81,7 @@ pub unsafe extern "C" fn signorini_problem_free(problem: *mut SignoriniProblem) 
     unsafe { release(problem) }
 }
 
-/// Fills data, whose struct_size you set before. Its arrays live as long as the problem.
+/// Fills data, whose struct_size you set. Its arrays live as long as the problem.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_problem_view(
     problem: *const SignoriniProblem,

@@ -70,7 +70,7 @@ pub extern "C" fn signorini_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// Binary interface of the library; compare it with SIGNORINI_ABI_VERSION after dlopen.
+/// Binary interface of the library; after dlopen compare SIGNORINI_ABI_VERSION.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_abi_version() -> i32 {
     SIGNORINI_ABI_VERSION

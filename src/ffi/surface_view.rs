@@ -79,7 +79,7 @@ pub struct SignoriniSurfaceData {
     pub friction: *const f64,
 }
 
-/// Fills data, whose struct_size you set before. Its arrays live as long as the pairs.
+/// Fills data, whose struct_size you set. Its arrays live as long as the pairs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_view(
     contact: *const SignoriniSurfacePairs,

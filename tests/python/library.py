@@ -35,6 +35,7 @@ STRUCTURES = {structures.Told: "progress", structures.Settings: "settings",
               structures.Operator: "operator",
               structures.ContactFields: "contact_fields", structures.ResultantSums: "resultant", structures.PenetrationData: "penetration",
               structures.Mesh: "mesh", structures.NodalField: "field"}
+MACHINE = 18  # where a file of ELF names the processor
 BUILT = os.path.join(ROOT, "target", "release", "libsignorini.so")
 
 
@@ -84,6 +85,31 @@ class Library(unittest.TestCase):
             with self.assertRaisesRegex(signorini.SignoriniError, words):
                 signorini.load(path)
         self.assertEqual(signorini.solve(K, LOAD, 0, 0.3).status, signorini.Status.SOLVED)
+
+    def test_a_library_that_it_needs_is_missing(self):
+        needed = self.fake("libneeded.so", "int needed(void) { return 1; }\n")
+        path = os.path.join(WORK, "libneedy.so")
+        with open(path + ".c", "w", encoding="ascii") as file:
+            file.write("int needed(void);\nint signorini_abi_version(void) { return needed(); }\n")
+        subprocess.run([*CC.split(), "-shared", "-fPIC", "-o", path, path + ".c", needed], check=True)
+        os.remove(needed)
+        with self.assertRaisesRegex(signorini.SignoriniError, "libneeded.*a library that it needs is missing"):
+            signorini.load(path)
+
+    def test_another_processor_is_told(self):
+        path = self.fake("libforeign.so", "int signorini_abi_version(void) { return 0; }\n")
+        with open(path, "r+b") as file:
+            file.seek(MACHINE)
+            file.write(b"\xff\xff")
+        with self.assertRaisesRegex(signorini.SignoriniError, "it is for another system or processor"):
+            signorini.load(path)
+
+    def test_a_python_of_32_bits_is_told(self):
+        code = "import ctypes, signorini\nctypes.sizeof = lambda kind: 4\ntry: signorini.load()\n" \
+               "except signorini.SignoriniError as error: print(error)"
+        result = self.run_python(code)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("needs a Python of 64 bits, and this one has 32", result.stdout)
 
     def test_is_found(self):
         version = re.search(r'^version = "(.*)"', text("Cargo.toml"), re.M)[1]

@@ -120,3 +120,23 @@ fn the_list_of_the_dlls_functions_is_fresh() {
         "include/signorini.def is stale: run SIGNORINI_BLESS=1 cargo test --test sources"
     );
 }
+
+/// Files that no build makes from Cargo.toml.
+#[test]
+fn the_version_is_the_same_everywhere() {
+    let version = env!("CARGO_PKG_VERSION");
+    let (interface, _patch) = version.rsplit_once('.').unwrap();
+    for (path, words) in [
+        ("c_examples/install/recipe.yaml", format!("version: \"{version}\"")),
+        (
+            "c_examples/install/spack/packages/signorini/package.py",
+            format!("signorini@{version}\n"),
+        ),
+        ("c_examples/python/signorini/_library.py", format!("SONAME_VERSION = \"{interface}\"")),
+        ("c_examples/guide/first.md", format!("find_package(signorini {interface} ")),
+        ("README.md", format!("find_package(signorini {interface})")),
+    ] {
+        let text = fs::read_to_string(root().join(path)).unwrap();
+        assert!(text.contains(&words), "{path} does not say {words}");
+    }
+}

@@ -9,6 +9,7 @@ from ._constants import ABI_VERSION, Status, member
 from ._structures import address, i32, i64, real, u32
 
 SONAME_VERSION = "0.9"  # of libsignorini.so.0.9
+BITS = 64  # of an address in the library
 text = ctypes.c_char_p
 
 # Friction in every call: law, its parameters, reference slip.
@@ -103,6 +104,9 @@ def check(functions, status, message=None):
 
 
 def _open(path):
+    bits = 8 * ctypes.sizeof(ctypes.c_void_p)
+    if bits != BITS:
+        raise SignoriniError(f"the library signorini needs a Python of {BITS} bits, and this one has {bits}")
     end = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
     name = ("" if sys.platform == "win32" else "lib") + "signorini" + end
     here = os.path.dirname(os.path.abspath(__file__))
@@ -122,10 +126,10 @@ def _open(path):
             reasons.append(str(error))
             continue
         return _bound(opened, place)
-    raise SignoriniError(
-        "the library signorini cannot be loaded (" + "; ".join(reasons) + "): build it by "
-        "cargo build --release, or set SIGNORINI_LIBRARY to its path"
-    )
+    remedy = "build it by cargo build --release, or set SIGNORINI_LIBRARY to its path"
+    if os.path.exists(places[0]):
+        remedy = "a library that it needs is missing, or it is for another system or processor"
+    raise SignoriniError("the library signorini cannot be loaded (" + "; ".join(reasons) + "): " + remedy)
 
 
 def _bound(opened, place):
