@@ -145,6 +145,9 @@ impl std::error::Error for Error {}
 const BEGIN: char = '\u{E000}';
 const END: char = '\u{E001}';
 
+/// Indices of one kind that a sentence names; of more it says so.
+pub(crate) const MOST_NAMED: usize = 4;
+
 /// An index for a sentence: `pair 12`, in Fortran `pair 13`.
 pub(crate) fn index(i: impl fmt::Display) -> String {
     format!("{BEGIN}{i}{END}")

@@ -46,9 +46,6 @@ const OPERATIONS: f64 = 2e10;
 /// Work of fewer operations does not tell their rate: other things take most of its time.
 const MEASURABLE: f64 = 1e7;
 
-/// Columns of a dense matrix that are worked on between two looks at the clock; a block of them stays in a cache.
-pub(crate) const COLUMNS: usize = 64;
-
 /// Counts iterations, reports progress and ends a call whose budget is used up.
 pub struct Monitor<'a> {
     begin: Instant,

@@ -4,7 +4,7 @@ use std::iter::repeat;
 
 use crate::law::{Contact, State, Violation};
 use crate::linalg::ball::UNIT;
-use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING_OF_SUM};
+use crate::linalg::tolerances::{FEW_OPERATIONS, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
 use crate::problem::{ChangesUnits, ContactProblem, Relation, in_units};
 
@@ -76,12 +76,8 @@ pub const ROUNDING_LIMIT: f64 = 1e-6;
 /// Displacements of a turning body beside the gap or slip that turns it: lever arms up to 1000.
 pub const LEVER: f64 = 1e3;
 
-/// Roundings of one component of the residual, of its norm and of the quotient, relative: some ten, half
-/// a unit each.
-const ROUNDINGS_OF_NORM: f64 = 8.0 * f64::EPSILON;
-
 /// The smallest number, a bound on what a product loses that is smaller than all numbers with full digits.
-const LEAST: f64 = f64::from_bits(1);
+pub(super) const LEAST: f64 = f64::from_bits(1);
 
 /// Measures displacements of any origin, on a relation in which they determine the contact forces.
 pub fn certify(problem: &ContactProblem<'_>, d: &[f64]) -> Certificate {
@@ -163,7 +159,8 @@ pub(super) fn measure_pair<R: Relation>(
     let all_terms = terms.inherent + terms.rest + load;
     let products = (4.0 * UNIT * count).powi(2) * all_terms + underflow;
     let doubt = natural.doubt.root() + natural.sensitivity * products;
-    let upper = ratio((size + doubt) * (1.0 + ROUNDINGS_OF_NORM), scale);
+    // Of one component of the residual, of its norm and of the quotient.
+    let upper = ratio((size + doubt) * (1.0 + FEW_OPERATIONS), scale);
     let hidden = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
     let rounding = ratio(natural.sensitivity * (UNIT * terms.rest + inherent), scale);
     let determines = residual.is_empty() && inner.is_empty();

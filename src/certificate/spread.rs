@@ -141,22 +141,22 @@ mod tests {
     /// Two parts without a support are driven towards the pair, where no obstacle stops them, or away from it.
     #[test]
     fn free_bodies_escape_where_the_load_drives_them() {
-        const NONE: f64 = f64::INFINITY;
+        let none = f64::INFINITY;
         for size in [1e-200, 1e-20, 1.0, 1e20, 1e200] {
             let of = |motion: [f64; 3]| motion.map(|r| size * r);
-            assert!(escapes(0.0, (1.0, NONE), of([1.0, 1.0, 0.0])));
+            assert!(escapes(0.0, (1.0, none), of([1.0, 1.0, 0.0])));
             assert!(escapes(0.0, (-1.0, 0.0), of([-1.0, -1.0, 0.0])));
             assert!(!escapes(0.0, (1.0, 0.0), of([1.0, 1.0, 0.0])), "the obstacle stops it");
-            assert!(!escapes(0.0, (1.0, NONE), of([-1.0, -1.0, 0.0])), "against the load");
-            assert!(!escapes(0.0, (0.0, NONE), of([1.0, 1.0, 0.0])), "nothing drives it");
-            assert!(!escapes(1.0, (1.0, NONE), of([1.0, 1.0, 0.0])), "the support holds it");
+            assert!(!escapes(0.0, (1.0, none), of([-1.0, -1.0, 0.0])), "against the load");
+            assert!(!escapes(0.0, (0.0, none), of([1.0, 1.0, 0.0])), "nothing drives it");
+            assert!(!escapes(1.0, (1.0, none), of([1.0, 1.0, 0.0])), "the support holds it");
             for strained in [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 0.0]] {
-                assert!(!escapes(0.0, (1.0, NONE), of(strained)), "{strained:?}");
+                assert!(!escapes(0.0, (1.0, none), of(strained)), "{strained:?}");
             }
         }
         for nothing in [0.0, f64::NAN, f64::INFINITY] {
-            assert!(!escapes(0.0, (1.0, NONE), [nothing, nothing, 0.0]), "{nothing}");
-            assert!(!escapes(0.0, (1.0, NONE), [nothing, 0.0, 0.0]), "{nothing} inside");
+            assert!(!escapes(0.0, (1.0, none), [nothing, nothing, 0.0]), "{nothing}");
+            assert!(!escapes(0.0, (1.0, none), [nothing, 0.0, 0.0]), "{nothing} inside");
         }
     }
 

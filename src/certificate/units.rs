@@ -1,11 +1,8 @@
 //! Measures and proofs in other units than those of the host.
 
-use super::measure::Certificate;
+use super::measure::{Certificate, LEAST};
 use super::proof::Proof;
 use crate::problem::Units;
-
-/// The smallest number.
-const LEAST: f64 = f64::from_bits(1);
 
 impl Certificate {
     /// The certificate in the host's units. Forces among the smallest doubles are rounded, which
@@ -57,9 +54,6 @@ mod tests {
     use crate::problem::{ContactData, ContactProblem, FrictionLaw};
     use fastrand::Rng;
 
-    /// The host's numbers are these times 2^-1000.
-    const POWER: i32 = 500;
-
     /// Units and a certificate of a problem whose numbers are 2^-1000 and stiffnesses of 1.
     fn small() -> (Units, Certificate) {
         let load = [host(1.0), 0.0];
@@ -79,12 +73,13 @@ mod tests {
         (units, certify(&problem, &load))
     }
 
+    /// The host's numbers are ours times 2^-1000.
     fn host(value: f64) -> f64 {
-        value * 2_f64.powi(-POWER) * 2_f64.powi(-POWER)
+        value * 2_f64.powi(-500) * 2_f64.powi(-500)
     }
 
     fn ours(value: f64) -> f64 {
-        value * 2_f64.powi(POWER) * 2_f64.powi(POWER)
+        value * 2_f64.powi(500) * 2_f64.powi(500)
     }
 
     /// A whole number of 2^-80: the smallest double of the host is 2^-74 here.

@@ -36,10 +36,10 @@ pub fn read(path: &Path) -> Result<ProblemFile, Error> {
 
 /// Most bytes that [`read`] takes; 0 of what is no file.
 pub fn memory(path: &Path) -> u64 {
-    // An entry has two bytes or more in the file and eight in memory.
-    const LEAST: u64 = 262_144;
-    const EACH: u64 = 8;
-    fs::metadata(path).map_or(0, |about| about.len().saturating_mul(EACH).saturating_add(LEAST))
+    // An entry has two bytes or more in the file and eight in memory; the rest is for a small file.
+    fs::metadata(path).map_or(0, |about| {
+        about.len().saturating_mul(size_of::<f64>() as u64).saturating_add(262_144)
+    })
 }
 
 /// The keys of the comments `% key: value` that tell the problem.

@@ -25,10 +25,7 @@ use super::ellipse::{inverse, product, times, transposed};
 use super::{PairLaw, Plane, Rule, State};
 use crate::linalg::ball::{Ball, BallVector, length, product_up, sum_of_parts, sum_up};
 use crate::linalg::double_double::two_sum;
-
-/// Rounding of the offset `b - mu a` and of the entries of an ellipse, relative to their terms: a few
-/// operations, a cosine, and what a host may have rounded of `b`.
-const DERIVED: f64 = 8.0 * f64::EPSILON;
+use crate::linalg::tolerances::FEW_OPERATIONS;
 
 /// The tangential part of an enclosed piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -186,7 +183,8 @@ impl EnclosedPiece {
 
     /// `W`, enclosed; 1 without an ellipse.
     fn disc(&self) -> Plane<Ball> {
-        let enclosed = |entry: f64| Ball::exact(entry).widened(product_up(DERIVED, entry.abs()));
+        let enclosed =
+            |entry: f64| Ball::exact(entry).widened(product_up(FEW_OPERATIONS, entry.abs()));
         match &self.law.ellipse {
             None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
             Some(ellipse) => {
@@ -200,8 +198,8 @@ impl EnclosedPiece {
     pub fn enclosed_threshold(&self, normal: Ball) -> Ball {
         let (slope, tension) = (Ball::exact(self.law.bound.slope), Ball::exact(self.law.tension));
         let terms = sum_up(self.law.bound.offset, (slope * tension).size());
-        // The offset of a cohesive law is a difference that has been rounded; others are given.
-        let doubt = if self.law.tension > 0.0 { product_up(DERIVED, terms) } else { 0.0 };
+        // The offset of a cohesive law is a difference of numbers that a host may have rounded; others are given.
+        let doubt = if self.law.tension > 0.0 { product_up(FEW_OPERATIONS, terms) } else { 0.0 };
         let offset = Ball::new(self.law.bound.offset, doubt);
         if self.closed { slope * (tension - normal) + offset } else { offset }
     }

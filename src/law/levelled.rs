@@ -14,14 +14,12 @@
 use super::ellipse::{product, transposed};
 use super::{Ellipse, PairLaw, Plane, Rule};
 use crate::linalg::vector::stiffness_axes;
+use crate::problem::FLATTEST;
 
 /// Stiffnesses along both tangents that differ by less need no other coordinates. With 160 times one problem in plane strain,
 /// whose third direction is held, takes 6 to 72 systems in the place of one; of 500 random problems with 30 to 1e10 times
 /// none is left unsolved with this limit, and some are with 1000.
 const UNLIKE: f64 = 100.0;
-
-/// The flattest ellipse. Its squares keep digits beside 1.
-const FLATTEST: f64 = 1e-6;
 
 /// Tangents of a pair along which it is as stiff.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +41,7 @@ impl LevelledTangents {
             return None;
         }
         let ([softer, stiffer], [x, y]) = stiffness_axes(a, b, c);
-        let share = (softer / stiffer).max(0.0).sqrt().max(FLATTEST);
+        let share = (softer / stiffer).max(0.0).sqrt().max(1.0 / FLATTEST);
         (softer > 0.0 && softer * UNLIKE < stiffer).then(|| LevelledTangents {
             basis: [[x, -y * share], [y, x * share]],
             half_axes: [1.0, share],

@@ -11,10 +11,7 @@
 //! exactly if the law is obeyed. Of a tie `e = k (d - reference)`, whatever the force.
 
 use super::{Ellipse, PairLaw, State, Vector, length};
-
-/// Roundings of the residual on a slip, relative to its terms: one of each force, four of the bound, and up
-/// to seven of the direction and of the sum, half a unit each.
-const EVALUATION: f64 = 8.0 * f64::EPSILON;
+use crate::linalg::tolerances::FEW_OPERATIONS;
 
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
 #[derive(Clone, Copy, Debug, Default)]
@@ -82,7 +79,8 @@ impl PairLaw {
             let (turned, _) = self.slopes_on_bound([y[1], y[2]], threshold);
             terms += above(turned.as_flattened()) * above(trial);
         }
-        let rounding = EVALUATION * terms;
+        // One of each force, four of the bound, and up to seven of the direction and of the sum.
+        let rounding = FEW_OPERATIONS * terms;
         // Next to its bound a pair that sticks may slip.
         let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
         let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;

@@ -1,12 +1,10 @@
 //! The method of conjugate gradients for a matrix that is well conditioned, by its products alone.
 
+use super::tolerances::ROUNDING;
 use super::vector::dot;
 
-/// The residual that is left, beside the right-hand side: rounding.
-const LEFT: f64 = 1e-14;
-
 /// `x` with `A x = b` for a symmetric, positive definite `A`; at most as many steps as unknowns, and each asks `goes_on`,
-/// which may end it with an error.
+/// which may end it with an error. The residual falls to rounding beside `b`.
 pub fn conjugate_gradients<E>(
     times: impl Fn(&[f64]) -> Vec<f64>,
     b: &[f64],
@@ -14,7 +12,7 @@ pub fn conjugate_gradients<E>(
 ) -> Result<Vec<f64>, E> {
     let (mut x, mut rest, mut along) = (vec![0.0; b.len()], b.to_vec(), b.to_vec());
     let mut square = dot(&rest, &rest);
-    let least = LEFT * LEFT * square;
+    let least = ROUNDING * ROUNDING * square;
     for _ in 0..b.len() {
         goes_on()?;
         if square <= least {

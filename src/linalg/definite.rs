@@ -12,7 +12,7 @@ use faer::Mat;
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::factor::{Factor, cholesky};
 use super::matrix::{TILE, tiles};
-use super::tolerances::SINGULAR;
+use super::tolerances::{FEW_OPERATIONS, SINGULAR};
 use super::vector::{norm, norm_inf};
 use super::watched::{GoesOn, filled};
 
@@ -21,9 +21,6 @@ const ITERATIONS: usize = 4;
 
 /// Shifts that are tried, as parts of the eigenvalue that is found.
 const SHIFTS: [f64; 2] = [0.5, 0.05];
-
-/// Rounding of the entries as they are given, and of the shift, relative.
-const GIVEN: f64 = 8.0 * f64::EPSILON;
 
 /// Roundings of an entry of the factor beside those of the theorem: the shift, and a pivot whose inverse
 /// multiplies. [`f64::EPSILON`] is twice the rounding `u`, which covers the rest.
@@ -36,7 +33,7 @@ pub struct Definite {
 }
 
 impl Definite {
-    /// The matrix of `n` rows whose columns `fill(j, column)` writes, each entry known up to [`GIVEN`], relative;
+    /// The matrix of `n` rows whose columns `fill(j, column)` writes, each entry known up to [`FEW_OPERATIONS`], relative;
     /// `None` if it is not proved to be positive definite, that its symmetric part is, or where `goes_on` says no.
     pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64]), goes_on: GoesOn<'_>) -> Option<Self> {
         let mut matrix = filled((n, n), fill, goes_on)?;
@@ -46,7 +43,7 @@ impl Definite {
         };
         let mut factor = Factor::new(n, true, SINGULAR, lower, goes_on)?;
         let found = least_eigenvalue(&mut factor);
-        let doubt = product_up(GIVEN, norm_inf(&sizes));
+        let doubt = product_up(FEW_OPERATIONS, norm_inf(&sizes));
         let bound = |part: f64| above(&matrix, part * found, doubt, goes_on);
         let least = SHIFTS.into_iter().find_map(bound)?;
         Some(Definite { factor, least })

@@ -202,8 +202,8 @@ pub fn tiles(size: usize, tile: usize) -> impl Iterator<Item = (Range<usize>, Ra
 /// A number that sums of terms whose sizes sum up to `size` change by less than a third, however they are
 /// rounded, so that its exponent stays: 12 to 24 times the power of two below `size`.
 fn base_of_sum(size: f64) -> f64 {
-    const EXPONENT: u64 = f64::INFINITY.to_bits();
-    12.0 * f64::from_bits(size.max(f64::MIN_POSITIVE).to_bits() & EXPONENT)
+    let exponent = f64::INFINITY.to_bits();
+    12.0 * f64::from_bits(size.max(f64::MIN_POSITIVE).to_bits() & exponent)
 }
 
 /// Entries that a column-major matrix of `size` rows and columns has to the end of its last column.

@@ -15,6 +15,7 @@ pub(crate) mod gmres;
 pub(crate) mod last_case;
 pub(crate) mod least_squares;
 pub(crate) mod matrix;
+pub(crate) mod memory;
 pub(crate) mod nnls;
 pub(crate) mod packed;
 pub(crate) mod perturbation;

@@ -4,7 +4,9 @@
 //!
 //! | name | size | what is decided | relative to |
 //! |---|---|---|---|
+//! | [`MOVING`] | 1e-6 | does a component move, so that a sentence names it? | the largest displacement |
 //! | [`SUSPICIOUS_PIVOT`] | 1e-8 | may the matrix be singular? then look closer | its diagonal |
+//! | [`AGREES`] | 1e-9 | do numbers that a host gives twice agree? | their sizes |
 //! | [`LEAST_WORK`] | 1e-9 | do the loads do work on a motion, so that it is a proof? | what they could do |
 //! | [`REGULARISATION`] | 1e-10 | what is added to a singular matrix to find its null vector | its diagonal |
 //! | [`NEGLIGIBLE`] | 1e-11 | is the result of a factorisation, or of thousands of sums, zero? | its largest entry |
@@ -15,11 +17,17 @@
 //! | [`ROUNDING`] | 1e-14 | is one sum of the library's own terms zero? | its terms |
 //! | [`NULL_VECTOR`] | 2.2e-15 | is `A x` zero, so that `x` is a null vector of a sparse `A`? | the terms of its sums |
 //! | [`FREE`], [`HELD`] | 3, 100 | is a motion free, or held? between them neither can be told | the rounding of its energy |
+//! | [`FEW_OPERATIONS`] | 1.8e-15 | what is the rounding of a number that some ten operations give? | their terms |
 //! | [`SINGULAR_BASIS`] | 2.2e-16 | is a basis of Lemke's method singular? | the largest pivot |
 //!
 //! [`SINGULAR`] lies below [`NEGLIGIBLE`] because a pivot of `LU` is no eigenvalue: systems with the
 //! condition number 1e10, the largest that can be certified, have pivots of 1e-10 and slightly less.
 //! [`SINGULAR_BASIS`] lies at the last digit because iterative refinement on the data follows.
+
+/// Numbers that a host gives twice, across the diagonal or as weights that sum to 1, agree up to this, relative to their
+/// sizes: far above the rounding of a condensation (measured 1e-13 from CalculiX and MUMPS) and of tables with ten digits,
+/// far below a slip of indices and what a certificate of 1e-10 can bear.
+pub const AGREES: f64 = 1e-9;
 
 /// Rounding that is left of a sum that should be zero, relative to its terms: about 50 units of double
 /// precision.
@@ -72,6 +80,10 @@ pub const HELD: f64 = 100.0;
 /// supported have 2e-12 (a cantilever of 1 : 5000).
 pub const UNRESISTED: f64 = 1e-13;
 
+/// Displacements below this part of the largest one are not counted as moving in a sentence: an iteration to a motion
+/// leaves up to this where nothing moves ([`INVERSE_ITERATIONS`]).
+pub const MOVING: f64 = 1e-6;
+
 /// Steps of inverse iteration to a null vector. A step divides the part of another eigenvector by its
 /// eigenvalue (weak parts with supports: 1e-7) over the smallest one. That is rounding, 1e-16, where
 /// [`NULL_VECTOR`] decides: two steps leave 1e-18. It is [`REGULARISATION`] where the matrix is known to
@@ -81,6 +93,9 @@ pub const INVERSE_ITERATIONS: usize = 2;
 /// `x` is a null vector of `A` if the entries of `A x` are below this part of their largest terms: ten
 /// roundings. Weak parts of structures that supports hold have 1e-7, free parts 4e-16 (measured).
 pub const NULL_VECTOR: f64 = 10.0 * f64::EPSILON;
+
+/// Rounding of some ten operations, half a unit each, relative to their terms.
+pub const FEW_OPERATIONS: f64 = 8.0 * f64::EPSILON;
 
 /// A sum of terms that should cancel is zero below this part of the sum of their sizes: terms that
 /// a host has computed in doubles, a few thousand operations each (1e-16 an operation).

@@ -120,7 +120,7 @@ const ELLIPTIC: Statement = Statement {
 
 /// How far apart both coefficients of an ellipse may be: slips are scaled by the squares of their quotient, of which
 /// a few digits must be left.
-const FLATTEST: f64 = 1e6;
+pub(crate) const FLATTEST: f64 = 1e6;
 
 /// Units in the last place by which `b` may fall below `mu a`: the host has rounded a product.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;

@@ -3,12 +3,8 @@
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::Matrix;
-use crate::linalg::tolerances::{CONDENSATION, FREE};
+use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
-
-/// Asymmetry allowed, relative to the diagonal: far above the rounding of a host's condensation
-/// (measured 1e-13 from CalculiX and MUMPS), far below a slip of indices.
-pub(crate) const SYMMETRY: f64 = 1e-9;
 
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to it, which is
 /// positive.
@@ -18,7 +14,7 @@ pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
 
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
 pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
-    matrix.agrees_across(root, SYMMETRY, f64::INFINITY)
+    matrix.agrees_across(root, AGREES, f64::INFINITY)
 }
 
 /// Roots of the diagonal entries, each with the rounding that a host's condensation leaves in the place of a zero, a part
@@ -71,7 +67,7 @@ fn check_beside(
 /// Returns `true` if [`check_columns`] and [`check_across`] find nothing, in one pass over the matrix: entries that are not
 /// finite agree with nothing. They find what is wrong where it is.
 fn is_plainly_semi_definite(matrix: &Matrix<'_>, root: &[f64]) -> bool {
-    root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, SYMMETRY, 1.0 + SYMMETRY)
+    root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, AGREES, 1.0 + AGREES)
 }
 
 /// Refuses asymmetry beyond rounding and entries that a diagonal with these roots does not allow.
@@ -86,7 +82,7 @@ fn check_across(
     matrix.pairs_across(|i, j, lower, upper| {
         let scale = root[i] * root[j];
         let difference = (lower - upper).abs();
-        if difference > SYMMETRY * scale {
+        if difference > AGREES * scale {
             let (below, above) = (at(i, j), at(j, i));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
@@ -95,7 +91,7 @@ fn check_across(
                 self::difference(difference / scale, &remedy)
             ));
         }
-        if lower.abs() > (1.0 + SYMMETRY) * scale {
+        if lower.abs() > (1.0 + AGREES) * scale {
             return refuse(beyond_diagonal(name, (i, j), lower, scale));
         }
         Ok(())
@@ -116,7 +112,7 @@ pub(crate) fn beyond_diagonal(
 }
 
 /// Refuses a checked matrix, of `dim` components for each pair, that a motion makes work: with a negative
-/// eigenvalue, scaled to a unit diagonal, that is no rounding ([`SYMMETRY`]), with what a condensation leaves on the
+/// eigenvalue, scaled to a unit diagonal, that is no rounding ([`AGREES`]), with what a condensation leaves on the
 /// diagonal. `go_on` is asked now and then; if it ends the check, the answer is none to use.
 pub(crate) fn check_semidefinite(
     matrix: &Matrix<'_>,
@@ -127,7 +123,7 @@ pub(crate) fn check_semidefinite(
     let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
     let scale: Vec<f64> = roots(matrix, dim).into_iter().map(inverse).collect();
     let entry = |i: usize, j: usize| match i == j {
-        true => 1.0 + SYMMETRY,
+        true => 1.0 + AGREES,
         false => scale[i] * matrix.at(i, j) * scale[j],
     };
     let Some(component) = first_not_definite(matrix.size(), entry, go_on) else { return Ok(()) };
@@ -183,7 +179,7 @@ fn check_columns(
         if root[j].is_nan() {
             return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
         }
-        let is_too_large = |i: &usize| column[*i].abs() > (1.0 + SYMMETRY) * root[*i] * root[j];
+        let is_too_large = |i: &usize| column[*i].abs() > (1.0 + AGREES) * root[*i] * root[j];
         if column[j] == 0.0
             && let Some(i) = (0..column.len()).find(is_too_large)
         {
@@ -208,6 +204,6 @@ pub(crate) fn difference(relative: f64, remedy: &str) -> String {
     if !relative.is_finite() {
         return "beside a zero on the diagonal both must be zero".into();
     }
-    let said = format!("they differ by {relative:.0e} of the diagonal, {SYMMETRY:.0e} is allowed");
+    let said = format!("they differ by {relative:.0e} of the diagonal, {AGREES:.0e} is allowed");
     if relative <= SINGLE_PRECISION { format!("{said}: {remedy}") } else { said }
 }

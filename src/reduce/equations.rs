@@ -2,11 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::error::{Argument, Error, index};
+use crate::error::{Argument, Error, MOST_NAMED, index};
 use crate::linalg::row_elimination::{Terms, gathered};
-
-/// How many degrees of freedom of a circle a sentence names.
-const MOST_NAMED: usize = 4;
 
 /// `u[dependent] = sum coefficient * u[dof]`, equation by equation; one without terms says `u[dependent] = 0`.
 ///

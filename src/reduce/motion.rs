@@ -2,12 +2,8 @@
 
 use super::Reduction;
 use crate::error::index;
-use crate::linalg::tolerances::ROUNDING_OF_SUM;
+use crate::linalg::tolerances::{MOVING, ROUNDING_OF_SUM};
 use crate::linalg::vector::norm_inf;
-
-/// Displacements below this part of the largest one are not counted as moving: a motion comes from
-/// an iteration that leaves up to this where nothing moves (`linalg::tolerances::INVERSE_ITERATIONS`).
-const MOVING: f64 = 1e-6;
 
 /// How many of what moves most are named: a node's translation in space, or one point of a rotation.
 const MOST_NAMED: usize = 3;

@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use super::probes::{is_unit, measured_units, probe};
 use super::{MatrixFreeReduction, Reduction, motion};
 use crate::error::{Argument, Error, Message, entry};
+use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::{dot, first_not_finite, norm};
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::workers::Workers;
@@ -45,10 +46,6 @@ pub trait HostOperator: Send + Sync {
         Err(-1)
     }
 }
-
-/// Products of probes that should agree differ by this part of their sizes at most: what rounding of products and
-/// of the host's inner solutions leaves, and what a certificate of 1e-10 can bear.
-const AGREES: f64 = 1e-9;
 
 /// Every component of this number is held in the check of solutions with components held.
 const HELD_IN_CHECK: usize = 3;

@@ -5,12 +5,9 @@ use super::frame::Frame;
 use super::rows::Rows;
 use crate::error::{Argument, Error, index};
 use crate::linalg::row_elimination::{Terms, gathered};
+use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::problem::checked_dim;
-
-/// The weights of a pair's masters sum to 1 up to this: far above the rounding of shape functions in
-/// doubles (1e-16) and of tables with ten digits, below anything that a gap shows.
-const SUM_OF_WEIGHTS: f64 = 1e-9;
 
 /// Contact pairs in degrees of freedom of the host: each a sum `d = Rᵀ sum a_k u_k`, with `R` the pair's frame and
 /// a vector `a_k` of `dim` numbers for each degree of freedom.
@@ -189,7 +186,7 @@ impl ContactPairs<'_> {
         let (sum, largest) = (weights.iter().sum::<f64>(), norm_inf(weights));
         let scale = if self.are_general() { largest.max(1.0) } else { 1.0 };
         // Written so that NaN is refused.
-        let is = |wanted: f64| sum.is_finite() && f64::abs(sum - wanted) <= SUM_OF_WEIGHTS * scale;
+        let is = |wanted: f64| sum.is_finite() && f64::abs(sum - wanted) <= AGREES * scale;
         if self.are_general() {
             if largest == 0.0 {
                 return refuse(format!("pair {}: it has no node with a weight", index(pair)));

@@ -16,8 +16,9 @@ const OPPOSED: f64 = -0.2;
 /// of neighbours on it, normals differ by the angle of a face, say 30 degrees on coarse ones.
 pub(super) const SAME_WAY: f64 = 0.7;
 
-/// A node is wanted even if it is beyond a master face by this part of the coordinates.
-const BEYOND: f64 = 1e-9;
+/// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
+/// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
+pub(super) const BEYOND: f64 = 1e-9;
 
 /// How far from a slave face a master face may be, along the slave's normal.
 #[derive(Clone, Copy, Debug)]

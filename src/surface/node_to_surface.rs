@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::Candidates;
+use super::candidates::{BEYOND, Candidates};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::foot;
@@ -23,10 +23,6 @@ use super::watch::Watch;
 use super::whole_faces::paired;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
-
-/// A point is on a face if its local coordinates are beyond it by less than this: nodes that stand on
-/// the rim by construction miss it by rounding.
-const BEYOND: f64 = 1e-9;
 
 pub(super) fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
     if kind.is_triangle() {

@@ -11,8 +11,8 @@ use crate::error::{Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
 /// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
-/// half of that radius this many reach the last digits.
-const STEPS: usize = 60;
+/// half of that radius this many reach the last digits, and Newton's method needs fewer.
+pub(super) const MOST_STEPS: usize = 60;
 
 /// A change of the unit normal this small is rounding.
 const LAST: f64 = 1e-14;
@@ -69,7 +69,7 @@ impl Side<'_> {
 /// and the face's unit normal there. `None` if steps along normals do not lead to one.
 pub(super) fn foot(face: &Face<'_>, x: Vector3, dim: usize) -> Option<(Local, Vector3)> {
     let mut normal = face.middle_normal()?;
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let at = Plane::new(dim, x, normal).flatten(face).local([0.0; 2])?;
         let next = unit(face.outward(at))?;
         let change = (next - normal).norm();

@@ -10,6 +10,7 @@ use super::exact_shape::ExactShape;
 use super::face::Face;
 use super::fitted_normals::{Fitted, fitted};
 use super::mesh::Side;
+use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
 use super::projected_shapes::Opposite;
 use super::settings::TrueShape;
@@ -17,10 +18,6 @@ use super::shape::Local;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, axis, unit};
-
-/// Steps of Newton's method along a normal to a shape: it converges by squares, from a distance that is a part of the
-/// radius of curvature.
-const STEPS: usize = 20;
 
 /// A step beside the size of a face, or in its local coordinates, this short is the last one: what remains is of the order
 /// of its square.
@@ -171,7 +168,7 @@ impl Over<'_> {
 /// The distance from a point along a normal to an exact shape.
 fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64) -> f64 {
     let mut along = 0.0;
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let Some((distance, gradient)) = shape.distance(x + along * normal) else { break };
         let fall = gradient.dot(&normal);
         let step = distance / fall.abs().max(LEAST_FALL).copysign(fall);
@@ -190,7 +187,7 @@ fn along_to_patch(
     mut at: Local,
 ) -> f64 {
     let mut along = 0.0;
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let (place, [a, b]) = opposite(at);
         let (from, across) = (place - x, a.cross(&b));
         along = across.dot(&from) / across.dot(&normal);

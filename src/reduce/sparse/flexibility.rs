@@ -6,7 +6,8 @@ use super::host_arrays::SparseMatrix;
 use super::host_matrix::refuse;
 use crate::error::Error;
 use crate::linalg::sparse_matrix::{Csc, column, diagonal};
-use crate::problem::symmetric_matrix::{SYMMETRY, beyond_diagonal};
+use crate::linalg::tolerances::AGREES;
+use crate::problem::symmetric_matrix::beyond_diagonal;
 use crate::problem::{
     FlexibilityForm, FlexibilityProblem, FrictionLaw, SparseW, checked_dim, unknowns,
 };
@@ -77,7 +78,7 @@ fn check_entries(lower: &Csc) -> Result<(), Error> {
         let (rows, values) = column(lower, j);
         for (&i, &value) in rows.iter().zip(values).filter(|(i, _)| **i != j) {
             let scale = root[i] * root[j];
-            if value.abs() > (1.0 + SYMMETRY) * scale {
+            if value.abs() > (1.0 + AGREES) * scale {
                 return refuse(beyond_diagonal("W", (i, j), value, scale));
             }
         }

@@ -4,7 +4,7 @@ use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
 use crate::error::{Argument, Error, entry};
 use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
-use crate::problem::symmetric_matrix::SYMMETRY;
+use crate::linalg::tolerances::AGREES;
 
 pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
     Err(Error::invalid(Argument::Matrix, message))
@@ -122,7 +122,7 @@ fn check_symmetry(name: &str, full: &Csc, transposed: &Csc) -> Result<(), Error>
     for j in 0..full.ncols() {
         for (i, below, above) in both(full, transposed, j, j + 1) {
             let scale = root[i] * root[j];
-            if (below - above).abs() > SYMMETRY * scale {
+            if (below - above).abs() > AGREES * scale {
                 return refuse(messages::not_symmetric(name, (i, j), (below, above), scale));
             }
         }

@@ -3,6 +3,7 @@
 use super::rounds::{COMPLIANCE, InSeries};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
+use crate::linalg::watched::BLOCK;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
 
@@ -77,9 +78,6 @@ impl InSeries for Springs<'_> {
         self.by_all_means || self.compliance >= RANGE[1]
     }
 }
-
-/// Columns of the inverse that are solved for between two looks at the clock.
-const BLOCK: usize = 64;
 
 /// Beside flexibilities of size one: of an eigenvalue below `-NEGATIVE` the rounding of `W` is not the reason, which
 /// is of the order of its size times `2e-16`.

@@ -1,6 +1,6 @@
 //! Contact forces that grow without end, and what they show.
 
-use crate::error::index;
+use crate::error::{MOST_NAMED, index};
 use crate::law::{exceed_gaps, pressing};
 use crate::linalg::vector::{norm, norm_inf};
 use crate::problem::{ContactProblem, Redundant};
@@ -14,9 +14,6 @@ const SAME: f64 = 1e-4;
 
 /// Part of the largest force of a pattern that a pair must have to be named.
 const COUNTS: f64 = 1e-6;
-
-/// Pairs that a sentence names.
-const MOST_NAMED: usize = 4;
 
 /// True if forces grow by the same pattern round by round.
 #[derive(Default)]

@@ -4,6 +4,7 @@
 //! questions; `tests/memory/estimate.rs` and `tests/memory/peaks.rs` count again.
 
 use crate::error::{Error, Limit};
+use crate::linalg::memory::of_matrices;
 use crate::problem::{FlexibilityForm, FlexibilityProblem};
 use crate::settings::Settings;
 
@@ -11,14 +12,8 @@ use crate::settings::Settings;
 /// elimination and its systems beside them. The tableau of Lemke's method with friction is 9/4 alone.
 const MATRICES: f64 = 4.25;
 
-/// Vectors with a number for each unknown.
-const VECTORS: f64 = 100.0;
-
 /// Vectors with a number for each unknown of all islands.
 const VECTORS_OF_WHOLE: f64 = 32.0;
-
-/// Whatever the size.
-const ALWAYS: f64 = 262_144.0;
 
 /// Refuses what needs more bytes than the settings allow.
 pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
@@ -37,8 +32,7 @@ pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
 /// beside the problem itself, whatever the method, the law and the questions. The working memory of matrix
 /// products, 4 MiB that a thread keeps, is not counted.
 pub fn memory(unknowns: usize) -> u64 {
-    let n = unknowns as f64;
-    ((MATRICES * n * n + VECTORS * n) * size_of::<f64>() as f64 + ALWAYS) as u64
+    of_matrices(MATRICES, unknowns)
 }
 
 /// Bytes of [`solve_flexibility`](crate::solve::solve_flexibility), which holds the stiffness of bodies and springs

@@ -19,6 +19,7 @@ use super::equilibrium::Balance;
 use super::motions::RigidMotions;
 use crate::error::{Error, index};
 use crate::law::Contact;
+use crate::linalg::tolerances::MOVING;
 use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, Relation, Stiffness};
@@ -34,10 +35,6 @@ const ROUNDS: usize = 30;
 
 /// The strain that is left, relative to the motion: too little to be seen, and taken away at last.
 const RIGID: f64 = 1e-10;
-
-/// Part of the largest component that counts as moving in a sentence: what is below is not worth
-/// reading.
-const MOVING: f64 = 1e-6;
 
 /// Gives a solution that has no equilibrium its motion of escape, sharpens the one that proves it, and says in
 /// the message what moves. `solve` finds the motion; `None`: that of the proof stands for it.

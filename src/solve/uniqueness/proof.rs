@@ -19,8 +19,8 @@ use crate::linalg::eigen::{is_below, largest_eigenvalue};
 use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::watched::GoesOn;
-use crate::monitor::{COLUMNS, Monitor};
+use crate::linalg::watched::{BLOCK, GoesOn};
+use crate::monitor::Monitor;
 
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite, and if there is time for it.
 pub fn scaled_factor(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Factor> {
@@ -62,7 +62,7 @@ fn is_contraction(
     for (a, column) in flexibility.chunks_exact_mut(n).enumerate() {
         column[component(a)] = 1.0;
     }
-    for columns in flexibility.chunks_mut(n * COLUMNS) {
+    for columns in flexibility.chunks_mut(n * BLOCK) {
         if monitor.goes_on().is_err() {
             return false;
         }

@@ -5,6 +5,7 @@ use super::{
     enclosed_force,
 };
 use crate::law::{Contact, State};
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::largest_of;
 use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 use fastrand::Rng;
@@ -16,11 +17,6 @@ const SYSTEMS: usize = 50;
 
 /// A corner of the box comes to this part of a doubt in most systems.
 const CLOSE: f64 = 0.1;
-
-/// Below this a doubt is rounding alone.
-const ROUNDING: f64 = 1e-12;
-
-const FRICTION: f64 = 0.5;
 
 /// The scaled matrix of a system, column-major.
 fn matrix(system: &System<'_>) -> Vec<f64> {
@@ -139,7 +135,8 @@ fn check(rng: &mut Rng, dim: usize, eps: f64, given: (&[f64], &[State], f64)) ->
                 closest = closest.max(sum / doubt);
             }
         }
-        if largest_of(doubts.iter().copied()) > ROUNDING { closest } else { 1.0 }
+        // A smaller doubt is rounding alone.
+        if largest_of(doubts.iter().copied()) > ROUNDING_OF_SUM { closest } else { 1.0 }
     })
 }
 
@@ -157,7 +154,7 @@ fn matrices_in_a_box_differ_by_the_doubts_at_most() {
     for (dim, eps) in [(2, 1e-3), (3, 1e-8), (3, 1e-5), (3, 1e-3)] {
         let close = |_: &usize| {
             let (k, states) = random(rng, dim);
-            check(rng, dim, eps, (&k, &states, FRICTION)) > CLOSE
+            check(rng, dim, eps, (&k, &states, 0.5)) > CLOSE
         };
         let close = (0..SYSTEMS).filter(close).count();
         assert!(2 * close > SYSTEMS, "{dim}D, {eps:e}: {close}");
@@ -171,7 +168,7 @@ fn doubts_hold_where_friction_turns_and_drags() {
     let rng = &mut Rng::with_seed(2);
     let soft = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1e-3];
     let coupled = [1.0, 0.5, 0.5, 0.5, 1.0, 0.0, 0.5, 0.0, 1.0];
-    for (k, mu) in [(&soft, FRICTION), (&coupled, 100.0 * FRICTION)] {
+    for (k, mu) in [(&soft, 0.5), (&coupled, 50.0)] {
         for eps in [1e-8, 1e-5, 1e-3] {
             let close = |_: &usize| check(rng, 3, eps, (k, &[State::Slip], mu)) > CLOSE;
             assert!(2 * (0..SYSTEMS).filter(close).count() > SYSTEMS, "{mu}, {eps:e}");
@@ -187,7 +184,7 @@ fn a_box_that_is_not_taken_into_itself_proves_nothing() {
     let k = [1.0, 0.2, 0.2, 0.2, 1.0, 0.0, 0.2, 0.0, 0.5];
     let (mut proved, mut contracts) = (0, 0);
     for _ in 0..SYSTEMS {
-        of_system(rng, 3, (&k, &[State::Slip], FRICTION), |system, centre| {
+        of_system(rng, 3, (&k, &[State::Slip], 0.5), |system, centre| {
             let Some(Solver::Inverse(inverse)) = system.solver(&mut || true) else { return };
             let (v, force) = place(system, centre);
             let size = system.unknowns.len();

@@ -9,8 +9,7 @@ use crate::linalg::factor::{Factor, lu_work, subtract_outer};
 use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;
-use crate::linalg::watched::GoesOn;
-use crate::monitor::COLUMNS;
+use crate::linalg::watched::{BLOCK, GoesOn};
 
 impl Tableau {
     /// Operations in whose time [`Self::refine`] reads the data and the tableau, and makes the changes that are kept.
@@ -69,11 +68,11 @@ impl Tableau {
         };
         let mut factor = Factor::new(rows.len(), false, SINGULAR_BASIS, fill, goes_on)?;
         self.kept.clear();
-        for first in (0..=n).step_by(COLUMNS) {
+        for first in (0..=n).step_by(BLOCK) {
             if !goes_on() {
                 return None;
             }
-            let columns = first..(first + COLUMNS).min(n + 1);
+            let columns = first..(first + BLOCK).min(n + 1);
             let solutions = self.solve_panel(problem, &mut factor, columns.clone(), &equations);
             self.write_panel(problem, columns, &solutions, &rows);
         }
@@ -126,8 +125,8 @@ impl Tableau {
     ) {
         let (n, count) = (self.size, rows.len());
         let mut memory = vec![0.0; n];
-        for first in (0..count).step_by(COLUMNS) {
-            let part = first..(first + COLUMNS).min(count);
+        for first in (0..count).step_by(BLOCK) {
+            let part = first..(first + BLOCK).min(count);
             let mut x = vec![0.0; n * part.len()];
             for (&row, x) in rows[part.clone()].iter().zip(x.chunks_exact_mut(n)) {
                 let mut column = vec![0.0; n];

@@ -16,7 +16,8 @@ use crate::error::Error;
 use crate::linalg::simd;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
-use crate::monitor::{COLUMNS, Monitor, Stop};
+use crate::linalg::watched::BLOCK;
+use crate::monitor::{Monitor, Stop};
 
 /// The tableau in a basis.
 pub struct Tableau {
@@ -71,7 +72,7 @@ impl Tableau {
             .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         for j in 0..n {
-            if j % COLUMNS == 0
+            if j % BLOCK == 0
                 && let Err(stop) = monitor.goes_on()
             {
                 return Ok(Err(stop));
