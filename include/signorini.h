@@ -305,10 +305,10 @@ typedef struct signorini_model signorini_model;
  * Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
  * and contact zones. Contact alone may support a body. H = K->size.
  *
- * If the condensed matrix needs more than memory_limit, the model is in full space: load cases
- * are solved by Newton's method with GMRES on a sparse factor, made anew a few times in
- * each, methods AUTO and NEWTON alone; search and settings.proof are refused. Pairs that depend on
- * each other are condensed all the same.
+ * If the condensed matrix needs more than memory_limit, or than the system has, the model is in
+ * full space (data.kind): load cases are solved by Newton's method with GMRES on a sparse factor,
+ * made a few times in each, methods AUTO and NEWTON alone; search and settings.proof are refused.
+ * Dependent pairs are condensed.
  *
  * @param K         the stiffness of all degrees of freedom, the fixed ones too
  * @param n_fixed   number of fixed degrees of freedom

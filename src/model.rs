@@ -59,8 +59,8 @@ impl Model {
     }
 
     /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback and its threads. If
-    /// the condensed matrix needs more memory than is allowed, or if [`Settings::full_space`] is set, the model is in
-    /// full space: nothing is condensed, and load cases are solved by products and solutions with the sparse
+    /// the condensed matrix needs more memory than is allowed or than the system has, or if [`Settings::full_space`] is
+    /// set, the model is in full space, as [`Self::kind`] tells: nothing is condensed, and load cases are solved by products and solutions with the sparse
     /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's
     /// `order` of elimination if there is one: each degree of freedom once, the first to be eliminated first. Fixed
     /// ones, slaves and contact are left out; those with the same neighbours stay together.
@@ -75,8 +75,9 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let (full_space, workers) = (monitor.wants_full_space(), monitor.workers());
+        let reserve = monitor.reserve();
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let control = Control { order, full_space, workers, ask };
+        let control = Control { order, full_space, workers, reserve, ask };
         let reduction = Box::new(SparseReduction::controlled(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }

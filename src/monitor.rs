@@ -63,6 +63,7 @@ pub struct Monitor<'a> {
     /// True once the callback has cancelled: it is not asked again.
     is_cancelled: bool,
     workers: &'a dyn Workers,
+    reserve: fn(u64) -> bool,
 }
 
 impl<'a> Monitor<'a> {
@@ -85,12 +86,23 @@ impl<'a> Monitor<'a> {
             progress,
             is_cancelled: false,
             workers: &SingleThread,
+            reserve: |_| true,
         }
     }
 
     /// This monitor with threads that share the reduction of a sparse matrix.
     pub fn with_workers(self, workers: &'a dyn Workers) -> Self {
         Monitor { workers, ..self }
+    }
+
+    /// This monitor with what obtains so many bytes for a work before it begins; `false`: the system refuses them.
+    pub(crate) fn with_reserve(self, reserve: fn(u64) -> bool) -> Self {
+        Monitor { reserve, ..self }
+    }
+
+    /// What obtains memory for a work before it begins.
+    pub(crate) fn reserve(&self) -> fn(u64) -> bool {
+        self.reserve
     }
 
     /// Who shares work.

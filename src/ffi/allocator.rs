@@ -88,10 +88,13 @@ impl Drop for CallReserve {
 /// The call may need `bytes` more than what it asked for before. `false`: the system refuses them.
 pub(super) fn want(bytes: usize) -> bool {
     let wanted = WANTED.get().saturating_add(bytes);
-    WANTED.set(wanted);
     let held = HELD.get();
     // Arrays come one by one: not a block for each of them.
-    wanted <= held || grow((wanted - held).max(held / 2))
+    let has_room = wanted <= held || grow((wanted - held).max(held / 2));
+    if has_room {
+        WANTED.set(wanted);
+    }
+    has_room
 }
 
 fn grow(bytes: usize) -> bool {

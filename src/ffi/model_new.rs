@@ -81,10 +81,10 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 /// Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
 /// and contact zones. Contact alone may support a body. H = K->size.
 ///
-/// If the condensed matrix needs more than memory_limit, the model is in full space: load cases
-/// are solved by Newton's method with GMRES on a sparse factor, made anew a few times in
-/// each, methods AUTO and NEWTON alone; search and settings.proof are refused. Pairs that depend on
-/// each other are condensed all the same.
+/// If the condensed matrix needs more than memory_limit, or than the system has, the model is in
+/// full space (data.kind): load cases are solved by Newton's method with GMRES on a sparse factor,
+/// made a few times in each, methods AUTO and NEWTON alone; search and settings.proof are refused.
+/// Dependent pairs are condensed.
 ///
 /// @param K         the stiffness of all degrees of freedom, the fixed ones too
 /// @param n_fixed   number of fixed degrees of freedom
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
         let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
         let received = SignoriniSettings::read(arrays, 5, settings)?;
         let made = SignoriniPairs::with(arrays, 4, pairs, matrix.index_base, |_, pairs| {
-            guard::reserve_estimate(reduce::memory(pairs.dim * pairs.count))?;
+            guard::reserve_estimate(reduce::memory_of_vectors(pairs.dim * pairs.count))?;
             Ok(received.monitored(|monitor| {
                 Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
             }))

@@ -20,3 +20,8 @@ impl CallReserve {
 pub(super) fn want(_: usize) -> bool {
     true
 }
+
+/// As [`want`], of what the library estimates.
+pub(super) fn want_estimate(bytes: u64) -> bool {
+    want(usize::try_from(bytes).unwrap_or(usize::MAX))
+}

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use super::args::Arrays;
 use super::guard::Failure;
 use super::numbers::{Numbered, numbers};
+use super::reserve;
 use super::structures::{self, Structure, chosen};
 use super::surroundings::in_host;
 use super::threads;
@@ -222,7 +223,11 @@ impl ParsedSettings {
         threads::with_workers(self.threads, 0, |workers| {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            work(&mut Monitor::new(&self.settings, progress).with_workers(workers))
+            work(
+                &mut Monitor::new(&self.settings, progress)
+                    .with_workers(workers)
+                    .with_reserve(reserve::want_estimate),
+            )
         })
     }
 

@@ -11,3 +11,8 @@ const MATRICES: f64 = 4.5;
 pub fn memory(unknowns: usize) -> u64 {
     of_matrices(MATRICES, unknowns)
 }
+
+/// Bytes of [`memory`] without matrices.
+pub fn memory_of_vectors(unknowns: usize) -> u64 {
+    of_matrices(0.0, unknowns)
+}

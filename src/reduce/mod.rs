@@ -20,7 +20,7 @@ mod two_body;
 pub use condensed::CondensedReduction;
 pub use equations::Equations;
 pub use flexibility::FlexibilityReduction;
-pub use memory::memory;
+pub use memory::{memory, memory_of_vectors};
 pub(crate) use motion::driven_motion;
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;

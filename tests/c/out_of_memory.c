@@ -152,6 +152,60 @@ static void sentence(struct world *world)
     CHECK_TEXT("", signorini_last_error());
 }
 
+/*
+ * Nodes on springs above a plane, so many that the system refuses a condensed matrix: the model is in full space, asked
+ * for or not, and the springs carry what the plane does not. Pairs that depend on each other need the matrix.
+ */
+static void no_room_for_a_condensed_matrix(void)
+{
+    enum { NODES = 3000, SIZE = 2 * NODES };
+    /* A dense matrix of 288 MB is refused; a load case wants half of that. */
+    const size_t least = 8u * SIZE * SIZE;
+    static int64_t starts[SIZE + 1], rows[SIZE], slaves[SIZE];
+    static double springs[SIZE], normals[SIZE], load[SIZE], gap[NODES], mu[NODES], d[SIZE], F[SIZE];
+    for (int i = 0; i < SIZE; i++) {
+        starts[i + 1] = i + 1;
+        rows[i] = slaves[i] = i;
+        springs[i] = 4;
+        normals[i] = i % 2 ? -1 : 0;
+        load[i] = i % 4 == 1 ? -8 : i % 4 == 3 ? 8 : 0;
+    }
+    const signorini_sparse K = {.struct_size = sizeof K, .index_bytes = 8,
+                                .triangle = SIGNORINI_TRIANGLE_LOWER, .size = SIZE, .nnz = SIZE,
+                                .col_start = starts, .row = rows, .values = springs};
+    const signorini_pairs pairs = {.struct_size = sizeof pairs, .dim = 2, .count = NODES,
+                                   .slaves = slaves, .normals = normals};
+    signorini_settings settings;
+    signorini_settings_default(&settings, sizeof settings);
+    for (settings.full_space = 0; settings.full_space < 2; settings.full_space++) {
+        signorini_model *model = NULL;
+        signorini_model_data data = {.struct_size = sizeof data};
+        heap_watch(least);
+        heap.first = 1;
+        CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &pairs, &settings, &model), 0);
+        CHECK(settings.full_space ? heap.refused == 0 : heap.refused > 0);
+        CHECK_STATUS(signorini_model_view(model, &data), 0);
+        CHECK(data.kind == SIGNORINI_MODEL_FULL_SPACE);
+        CHECK_STATUS(signorini_model_solve(model, 1, load, NULL, gap, SIGNORINI_LAW_COULOMB, mu, NULL, NULL,
+                                           d, F, NULL, NULL, NULL, NULL), 0);
+        heap.watching = 0;
+        signorini_model_free(model);
+        /* The first node is pressed, the second one lifted by 8 / 4. */
+        CHECK_NEAR(d[0], 0);
+        CHECK_NEAR(F[0], -8);
+        CHECK_NEAR(d[2], -2);
+        CHECK_NEAR(F[2], 0);
+    }
+    slaves[2] = slaves[0], slaves[3] = slaves[1];
+    settings.full_space = 1;
+    signorini_model *model = NULL;
+    heap_watch(least);
+    heap.first = 1;
+    CHECK_STATUS(signorini_model_new_sparse(&K, 0, NULL, &pairs, &settings, &model),
+                 SIGNORINI_STATUS_OUT_OF_MEMORY);
+    heap.watching = 0;
+}
+
 int main(int count, char **argument)
 {
     const int64_t most = count > 1 ? atoll(argument[1]) : TRIALS;
@@ -172,6 +226,7 @@ int main(int count, char **argument)
     printf("\n");
     one_after_the_other(world);
     sentence(world);
+    no_room_for_a_condensed_matrix();
     world_free(world);
     return check_summary("out_of_memory");
 }

@@ -8,7 +8,7 @@ use crate::workers::Workers;
 /// in all, 0 before they are known.
 type Ask<'a> = dyn FnMut(f64, u64) -> Result<(), Error> + 'a;
 
-/// The order of elimination, who works and who is asked.
+/// The order of elimination, who works, what obtains memory, and who is asked.
 pub struct Control<'a> {
     /// Each degree of freedom once, the first to be eliminated first; `None`: chosen.
     pub order: Option<&'a [usize]>,
@@ -16,6 +16,8 @@ pub struct Control<'a> {
     pub full_space: bool,
     /// Who factorises.
     pub workers: &'a dyn Workers,
+    /// Obtains so many bytes for a condensed matrix before it is begun; `false`: the system refuses them.
+    pub reserve: fn(u64) -> bool,
     /// Asked between steps.
     pub ask: &'a mut Ask<'a>,
 }

@@ -14,6 +14,7 @@ use crate::linalg::vector::{columns, norm_inf};
 use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, StiffnessOperator};
 use crate::reduce::equations::Dependents;
+use crate::reduce::memory::memory;
 use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
 use crate::workers::{SingleThread, Workers};
 
@@ -61,6 +62,7 @@ impl SparseReduction {
                 order: None,
                 full_space: false,
                 workers: &SingleThread,
+                reserve: |_| true,
                 ask: &mut |_, _| Ok(()),
             },
         )
@@ -98,8 +100,8 @@ impl SparseReduction {
         let mut asked = Asked::new(control.ask);
         let free = variables.free();
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
-        let (rank, workers) = (rank.as_deref(), control.workers);
-        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, workers };
+        let (rank, workers, reserve) = (rank.as_deref(), control.workers, control.reserve);
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, workers, reserve };
         let choice = (control.full_space, dependent.is_none());
         let mut engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
@@ -249,7 +251,7 @@ impl MatrixFreeReduction for SparseReduction {
     }
 }
 
-/// How the transformed matrix is divided and eliminated, and by whom.
+/// How the transformed matrix is divided and eliminated, by whom, and with whose memory.
 struct Parts<'a> {
     /// Number of unknowns that are no relative displacements.
     inner: usize,
@@ -259,18 +261,24 @@ struct Parts<'a> {
     /// Each pair has a slave of its own.
     own: bool,
     workers: &'a dyn Workers,
+    reserve: fn(u64) -> bool,
 }
 
 impl Engine {
     /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix needs more
-    /// memory than is allowed and it is `possible`.
+    /// memory than is allowed or than the system has, and it is `possible`.
     fn new(
         matrix: Csc,
         parts: &Parts<'_>,
         (wanted, possible): (bool, bool),
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
-        if !(wanted && possible) {
+        let is_condensed = !(wanted && possible);
+        let has_room = is_condensed && (parts.reserve)(memory(matrix.ncols() - parts.inner));
+        if is_condensed && !(has_room || possible) {
+            return Err(Failure::OutOfMemory);
+        }
+        if has_room {
             let progress = &mut |step| asked.goes_on(step);
             let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, progress)?;
             if progress(FactorStep::Needs(plan.bytes())).is_ok() {

@@ -1,0 +1,95 @@
+//! Load steps in space: a solution brought to the loads of the next problem with the same matrix, by the factors that it has
+//! left.
+//!
+//! A factor belongs to slip directions. Where they turn by an angle from one load step to the next, a step with the factor
+//! of the solution before leaves about that part of the lack of equilibrium: a few such chord steps find all digits, each
+//! for a solve. The pairs that were eliminated as open ones must stay open, and the result is measured on the whole
+//! problem. Where it is none, the problem is solved from there as one that follows no other.
+
+use std::sync::Arc;
+
+use super::iteration::{self, Ended};
+use crate::law::Vector;
+use crate::linalg::elimination::Elimination;
+use crate::monitor::Monitor;
+use crate::problem::Remembered;
+use crate::solve::part::ReducedProblem;
+use crate::solve::pieces::{Equations, Point};
+use crate::solve::result::{Candidate, Effort, Ending};
+
+/// What a problem leaves of the elimination of open pairs, for the next one with its matrix.
+pub struct Kept {
+    pub elimination: Arc<Elimination>,
+    /// What the problem on the candidates has left for itself.
+    pub of_candidates: Remembered,
+}
+
+/// Where a search has ended.
+pub struct Found {
+    /// Displacements, the force that they need, and their coordinates.
+    pub d: Vec<f64>,
+    pub force: Vec<f64>,
+    pub y: Vec<Vector>,
+    /// How it ended; its systems, and the orientation of the last one.
+    pub ending: Ending,
+    pub systems: u64,
+    pub orientation: i8,
+}
+
+impl From<Ended> for Found {
+    fn from(ended: Ended) -> Self {
+        let Ended { point, ending, systems, orientation } = ended;
+        let Point { y, d, force, .. } = point;
+        Found { d, force, y, ending, systems, orientation }
+    }
+}
+
+impl Found {
+    /// The candidate of the whole problem.
+    pub fn into_candidate(self) -> Candidate {
+        let effort = Effort::of_systems(self.systems);
+        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
+        candidate.orientation = self.orientation;
+        candidate
+    }
+}
+
+/// The problem reduced by an elimination of the problem before, if all that are eliminated are free when they are open.
+pub fn reduced<'w>(
+    whole: &'w Equations<'w>,
+    elimination: &Arc<Elimination>,
+) -> Option<ReducedProblem<'w>> {
+    let mut components = elimination.dropped().iter();
+    let are_free = components.all(|i| whole.laws[i / whole.dim].is_free_when_open());
+    are_free.then(|| ReducedProblem::by_elimination(whole, Arc::clone(elimination)))
+}
+
+/// Where steps with the factors of the problem before lead from its solution, whose displacements are `start`; `Done` if
+/// that is a solution. `None`: they lead nowhere. Of what is remembered an elimination stays.
+pub fn again(
+    whole: &Equations<'_>,
+    start: &[f64],
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Option<Found> {
+    let remembered = whole.remembered?;
+    if !remembered.is::<Kept>() {
+        return iteration::solve_again(whole, start, tolerance, monitor).map(Found::from);
+    }
+    let Kept { elimination, of_candidates } = remembered.take()?;
+    let reduced = reduced(whole, &elimination)?;
+    let part = Equations { remembered: Some(&of_candidates), ..reduced.equations() };
+    let found = again(&part, &reduced.restrict(start), tolerance, monitor);
+    drop(part);
+    let found = found.map(|found| {
+        let (d, force, y) = reduced.whole_from(&found.d, &found.y);
+        let is_solved = found.ending == Ending::Done
+            && reduced.closing(&y).is_empty()
+            && whole.eta(&d, &force) <= tolerance;
+        let ending = if is_solved { Ending::Done } else { iteration::FAR };
+        Found { d, force, y, ending, ..found }
+    });
+    drop(reduced);
+    remembered.leave(Kept { elimination, of_candidates });
+    found
+}
