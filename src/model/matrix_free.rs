@@ -5,7 +5,10 @@ use super::arguments::check_fixed_gaps;
 use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
 use crate::problem::{StiffnessOperator, checked_dim, unknowns};
-use crate::reduce::{HostOperator, MatrixFreeReduction, OperatorReduction};
+use crate::reduce::{
+    HostOperator, MatrixFreeReduction, OperatorReduction, PreconditionedOperator,
+    PreconditionedReduction,
+};
 use crate::solve::MatrixFreeCase;
 use crate::workers::Workers;
 
@@ -29,6 +32,30 @@ impl Model {
             return Err(Error::invalid(Argument::Matrix, message));
         }
         let reduction = Box::new(OperatorReduction::new(operator, (dim, pairs), units)?);
+        Ok(Model { dim, pairs, reduction })
+    }
+
+    /// A structure of which the host gives exact products on all of its unknowns, and a preconditioner. Loads and
+    /// displacements of the host are those of its unknowns. `units` are positive, of the size of the
+    /// diagonal of its matrix, one for each unknown; `components` are the unknowns that are the relative displacements of
+    /// the pairs, `dim` for each pair. A load case is solved by Newton's method with FGMRES.
+    ///
+    /// # Errors
+    /// A dimension that is not 2 or 3; components that are not `dim` for each pair; what
+    /// [`PreconditionedReduction::new`] finds wrong.
+    pub fn preconditioned(
+        dim: usize,
+        operator: Box<dyn PreconditionedOperator>,
+        units: &[f64],
+        components: &[usize],
+    ) -> Result<Self, Error> {
+        let pairs = components.len() / checked_dim(dim)?;
+        if dim * pairs != components.len() {
+            let message =
+                format!("place has {} entries, not {dim} for each pair", components.len());
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
+        let reduction = Box::new(PreconditionedReduction::new(operator, dim, units, components)?);
         Ok(Model { dim, pairs, reduction })
     }
 

@@ -66,6 +66,12 @@ pub trait StiffnessOperator {
     /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
     fn magnitude(&self, size: &[f64]) -> Vec<f64>;
 
+    /// Returns `true` if [`Self::solve`] solves but for rounding, or has an inverse of which that is asked; otherwise it is
+    /// a preconditioner, of which no accuracy is known.
+    fn is_exact(&self) -> bool {
+        true
+    }
+
     /// Returns `true` if `A` is a sparse matrix: a product costs next to nothing beside a solution, and what is held
     /// has the springs of the held set too.
     fn is_sparse(&self) -> bool;

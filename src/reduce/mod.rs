@@ -11,6 +11,7 @@ mod memory;
 mod motion;
 mod operator;
 mod pairs;
+mod preconditioned;
 mod probes;
 mod reduction;
 mod rows;
@@ -24,6 +25,7 @@ pub use memory::{memory, memory_of_vectors};
 pub(crate) use motion::driven_motion;
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
+pub use preconditioned::{Held, PreconditionedOperator, PreconditionedReduction};
 pub use reduction::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase};
 pub use sparse::{
     Control, Indices, SparseFlexibilityData, SparseMatrix, SparseReduction, Triangle,

@@ -2,11 +2,10 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::probes::{is_unit, measured_units, probe};
+use super::probes::{called, checked_images, is_unit, measured_units, probe, refuse};
 use super::{MatrixFreeReduction, Reduction, motion};
-use crate::error::{Argument, Error, Message, entry};
-use crate::linalg::tolerances::AGREES;
-use crate::linalg::vector::{dot, first_not_finite, norm};
+use crate::error::{Error, Message, entry};
+use crate::linalg::vector::dot;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::workers::Workers;
 
@@ -51,7 +50,7 @@ pub trait HostOperator: Send + Sync {
 const HELD_IN_CHECK: usize = 3;
 
 /// Sums of `|K| |x|` beside the units of the components: neighbours, and the far field of a half space.
-const NEIGHBOURS: f64 = 8.0;
+pub(super) const NEIGHBOURS: f64 = 8.0;
 
 /// The operator, checked.
 pub struct OperatorReduction {
@@ -88,9 +87,9 @@ impl OperatorReduction {
             return Ok(reduction);
         }
         let probes = [probe(size, 1), probe(size, 2)];
-        let products = reduction.check("K_rel", &probes, |reduction, x| reduction.product(x))?;
+        let products = checked_images("K_rel", &probes, |x| reduction.product(x))?;
         if reduction.operator.has_inverse() {
-            let images = reduction.check("W", &probes, |reduction, x| reduction.by_inverse(x))?;
+            let images = checked_images("W", &probes, |x| reduction.by_inverse(x))?;
             for (x, image) in probes.iter().zip(&images) {
                 if !(dot(x, image) > 0.0) {
                     return refuse("W is not positive definite: x . W x is not positive".into());
@@ -100,8 +99,7 @@ impl OperatorReduction {
         if reduction.operator.has_held() {
             let mask: Vec<bool> = (0..size).map(|i| i.is_multiple_of(HELD_IN_CHECK)).collect();
             let name = "the solution with components held";
-            let images =
-                reduction.check(name, &probes, |reduction, x| reduction.by_held(&mask, x))?;
+            let images = checked_images(name, &probes, |x| reduction.by_held(&mask, x))?;
             for image in images {
                 if let Some(i) = (0..size).find(|&i| mask[i] && image[i] != 0.0) {
                     let place = entry("y", [i]);
@@ -123,45 +121,6 @@ impl OperatorReduction {
         Ok(reduction)
     }
 
-    /// The images of two probes, if a linear, symmetric, positive semi-definite and reproducible map has them.
-    fn check(
-        &self,
-        name: &str,
-        [x, y]: &[Vec<f64>; 2],
-        image: impl Fn(&Self, &[f64]) -> Result<Vec<f64>, Error>,
-    ) -> Result<[Vec<f64>; 2], Error> {
-        let (of_x, of_y) = (image(self, x)?, image(self, y)?);
-        let apart = |a: &[f64], b: &[f64]| {
-            let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-            norm(&difference)
-        };
-        let size = norm(&of_x) + norm(&of_y);
-        if apart(&image(self, x)?, &of_x) > AGREES * size {
-            return refuse(format!(
-                "{name} is not reproducible: the same vector gives another one"
-            ));
-        }
-        let sum = |a: &[f64], b: &[f64]| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| a - 2.0 * b).collect()
-        };
-        if apart(&image(self, &sum(x, y))?, &sum(&of_x, &of_y)) > AGREES * size {
-            return refuse(format!("{name} is not linear"));
-        }
-        let terms = norm(x) * norm(&of_y) + norm(y) * norm(&of_x);
-        let (one, other) = (dot(x, &of_y), dot(y, &of_x));
-        if (one - other).abs() > AGREES * terms {
-            return refuse(format!(
-                "{name} is not symmetric: x . {name} y is {one:e}, y . {name} x is {other:e}"
-            ));
-        }
-        if dot(x, &of_x).min(dot(y, &of_y)) < -AGREES * terms {
-            return refuse(format!(
-                "{name} is not positive semi-definite: x . {name} x is negative"
-            ));
-        }
-        Ok([of_x, of_y])
-    }
-
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         called("K_rel x", x.len(), |y| self.operator.stiffness(x, y))
     }
@@ -180,29 +139,6 @@ impl OperatorReduction {
         last.extend_from_slice(held);
         Ok(y)
     }
-}
-
-/// Calls the host for a vector, in which nothing may stay unwritten.
-fn called(
-    name: &str,
-    size: usize,
-    call: impl FnOnce(&mut [f64]) -> Result<(), i32>,
-) -> Result<Vec<f64>, Error> {
-    let mut y = vec![f64::NAN; size];
-    if let Err(number) = call(&mut y) {
-        return refuse(format!("the host's function for {name} has returned {number}, not 0"));
-    }
-    match first_not_finite(&y) {
-        Some(i) => refuse(format!(
-            "the host's function for {name}: {} is not finite, or was not written",
-            entry("y", [i])
-        )),
-        None => Ok(y),
-    }
-}
-
-fn refuse<T>(message: String) -> Result<T, Error> {
-    Err(Error::invalid(Argument::Matrix, message))
 }
 
 impl Reduction for OperatorReduction {

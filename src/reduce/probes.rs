@@ -1,6 +1,9 @@
 //! Vectors by which an operator is checked and measured.
 
+use crate::error::{Argument, Error, entry};
 use crate::linalg::perturbation::Perturbation;
+use crate::linalg::tolerances::AGREES;
+use crate::linalg::vector::{dot, first_not_finite, norm};
 
 /// A vector without a pattern, of either sign and sizes between 1 and 2: the same in each run. Two vectors of
 /// signs alone would hide what is wrong with few components.
@@ -39,4 +42,60 @@ pub(super) fn measured_units(
 
 pub(super) fn is_unit(unit: f64) -> bool {
     unit > 0.0 && unit.is_finite()
+}
+
+/// The images of two probes, if a linear, symmetric, positive semi-definite and reproducible map has them.
+pub(super) fn checked_images(
+    name: &str,
+    [x, y]: &[Vec<f64>; 2],
+    image: impl Fn(&[f64]) -> Result<Vec<f64>, Error>,
+) -> Result<[Vec<f64>; 2], Error> {
+    let (of_x, of_y) = (image(x)?, image(y)?);
+    let apart = |a: &[f64], b: &[f64]| {
+        let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+        norm(&difference)
+    };
+    let size = norm(&of_x) + norm(&of_y);
+    if apart(&image(x)?, &of_x) > AGREES * size {
+        return refuse(format!("{name} is not reproducible: the same vector gives another one"));
+    }
+    let sum =
+        |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a - 2.0 * b).collect() };
+    if apart(&image(&sum(x, y))?, &sum(&of_x, &of_y)) > AGREES * size {
+        return refuse(format!("{name} is not linear"));
+    }
+    let terms = norm(x) * norm(&of_y) + norm(y) * norm(&of_x);
+    let (one, other) = (dot(x, &of_y), dot(y, &of_x));
+    if (one - other).abs() > AGREES * terms {
+        return refuse(format!(
+            "{name} is not symmetric: x . {name} y is {one:e}, y . {name} x is {other:e}"
+        ));
+    }
+    if dot(x, &of_x).min(dot(y, &of_y)) < -AGREES * terms {
+        return refuse(format!("{name} is not positive semi-definite: x . {name} x is negative"));
+    }
+    Ok([of_x, of_y])
+}
+
+/// Calls the host for a vector, in which nothing may stay unwritten.
+pub(super) fn called(
+    name: &str,
+    size: usize,
+    call: impl FnOnce(&mut [f64]) -> Result<(), i32>,
+) -> Result<Vec<f64>, Error> {
+    let mut y = vec![f64::NAN; size];
+    if let Err(number) = call(&mut y) {
+        return refuse(format!("the host's function for {name} has returned {number}, not 0"));
+    }
+    match first_not_finite(&y) {
+        Some(i) => refuse(format!(
+            "the host's function for {name}: {} is not finite, or was not written",
+            entry("y", [i])
+        )),
+        None => Ok(y),
+    }
+}
+
+pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
+    Err(Error::invalid(Argument::Matrix, message))
 }

@@ -13,5 +13,6 @@ mod full_space_floating;
 mod full_space_hard;
 mod full_space_random;
 mod parts;
+mod preconditioned;
 mod probes;
 mod products;

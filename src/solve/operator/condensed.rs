@@ -7,7 +7,7 @@
 //! ```
 //!
 //! take one solution with `C` held, and one product, for each component. Where nothing can be held `C` are all pairs,
-//! and products alone are taken. Pairs that penetrate then join `C`. Newton's method goes on from the solution. Where
+//! and products alone are taken; without a factor nothing is condensed. Pairs that penetrate then join `C`. Newton's method goes on from the solution. Where
 //! the dense problem has no equilibrium, its motion is continued to all unknowns, and the certificate judges it.
 
 use super::memory::{memory_of_components, room};
@@ -39,6 +39,9 @@ pub fn solve(
     best: &mut Outcome,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
+    if !bodies.operator.is_exact() {
+        return Ok(());
+    }
     let laws = equations.contact.pairs();
     let mut chosen = match bodies.operator.can_hold() {
         true => closed_with_margin(laws, &best.point.y),

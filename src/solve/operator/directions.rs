@@ -24,8 +24,8 @@ pub fn most_kept(unknowns: usize) -> usize {
 /// shares of such directions are large, and their sum loses these digits.
 const LEAST_OF_IMAGE: f64 = 1e-4;
 
-/// A change of all unknowns with the inner ones in equilibrium, and the forces on the pairs that it asks for, of
-/// `A` times it. It is one whatever is held.
+/// A change of all unknowns, and the forces that it asks for, of `A` times it: those on the pairs where the inner unknowns
+/// are in equilibrium, all of them otherwise. It is one whatever is held.
 pub struct Moved {
     pub z: Vec<f64>,
     pub forces: Vec<f64>,

@@ -35,14 +35,15 @@ pub struct FreeMotions {
 
 impl FreeMotions {
     /// The motions of bodies with pairs of `dim` components; `None` if there are none, or too many, or if `A` is no
-    /// sparse matrix.
+    /// sparse matrix with a factor.
     pub fn of(
         bodies: &mut Session<'_>,
         dim: usize,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Ending> {
         let components = bodies.operator.units().len() - bodies.operator.inner();
-        if !bodies.operator.is_sparse() || components == 0 {
+        let has_factor = bodies.operator.is_sparse() && bodies.operator.is_exact();
+        if !has_factor || components == 0 {
             return Ok(None);
         }
         bodies.hold_under(&HeldSet::none(dim, components / dim), monitor)?;

@@ -102,7 +102,7 @@ impl NormalMap for Newton<'_, '_> {
         let least = FORCING_OF_ETA * AIM * self.equations.tolerance / point.eta;
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
-        let system = System::new(self.equations, point, bodies.operator.is_sparse());
+        let system = System::new(self.equations, point, bodies.operator);
         let factor = bodies.held();
         if factor.is_none() {
             bodies.hold_under(&system.held_set, monitor)?;

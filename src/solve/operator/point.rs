@@ -122,11 +122,12 @@ impl Displacements {
         Displacements { x, low: vec![0.0; inner] }
     }
 
-    /// With their inner unknowns in equilibrium; all components of the pairs are held.
+    /// With their inner unknowns in equilibrium; all components of the pairs are held. Without a factor this part of the
+    /// lack is left.
     pub fn in_equilibrium(
         self,
         bodies: &mut Session<'_>,
-        load: &[f64],
+        (load, left): (&[f64], f64),
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Ending> {
         let inner = self.low.len();
@@ -134,7 +135,7 @@ impl Displacements {
             return Ok(self);
         }
         let lack = bodies.operator.residual(&self.x, &self.low, load)?;
-        let mut step = bodies.solve(&lack, monitor)?;
+        let mut step = bodies.solve_to((&lack, left), monitor)?;
         step[inner..].fill(0.0);
         Ok(self.moved(-1.0, &step))
     }

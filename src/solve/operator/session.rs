@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::error::Error;
 use crate::monitor::Monitor;
-use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
 use crate::solve::result::Ending;
 
 /// An operator with its last factor and its counts.
@@ -50,12 +50,30 @@ impl<'b> Session<'b> {
         Ok(())
     }
 
-    /// A solution with the held components at zero, or with the inverse.
+    /// A solution with the held components at zero, or with the inverse, or what the preconditioner makes of the forces.
     pub fn solve(&mut self, forces: &[f64], monitor: &mut Monitor<'_>) -> Result<Vec<f64>, Ending> {
         monitor.goes_on()?;
         self.solutions += 1;
         let solution = asked(monitor, |goes_on| self.operator.solve(forces, goes_on))?;
         Ok(solution.unwrap_or_default())
+    }
+
+    /// A solution with the held components at zero and no springs; where there is a preconditioner alone it leaves this
+    /// part of the forces.
+    pub fn solve_to(
+        &mut self,
+        (forces, left): (&[f64], f64),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Vec<f64>, Ending> {
+        let Some(held_set) = self.held().filter(|_| !self.operator.is_exact()) else {
+            return self.solve(forces, monitor);
+        };
+        let solution = asked(monitor, |goes_on| {
+            iterated(&mut *self.operator, &held_set.held, (forces, left), goes_on)
+        })?;
+        let (solution, count) = solution.unwrap_or_default();
+        self.solutions += count;
+        Ok(solution)
     }
 
     /// True where each product is dear: residuals follow from those of the point before.

@@ -13,12 +13,15 @@
 //! It is a symmetric matrix `M`, `A` with components held and the springs `C`, less `drag (A z)_n`. With the
 //! factor of `M` the system is 1 plus a skew part of the size of `mu`, so that GMRES takes few steps on any mesh
 //! (measured: 2 to 11). It works on forces `w` on the pairs alone: the inner unknowns are in equilibrium in all
-//! directions. Two preconditioners:
+//! directions. Three preconditioners:
 //!
 //! - A factor of an earlier `M`. A component that was held in it gets `w / k` as its displacement, with the springs of
 //!   the pair, and the forces that this asks of the others are subtracted; one that was free and is held now keeps its force `w` as an
 //!   unknown.
 //! - An inverse `W` of `A`, nothing held: its block of the free components, and `w / k` for the held ones.
+//! - One of the host, near the inverse of `M`: `w` are forces on all unknowns then, as no direction is in
+//!   equilibrium inside, and GMRES is the flexible one (Y. Saad, *A flexible inner-outer preconditioned GMRES algorithm*,
+//!   SIAM J. Sci. Comput. 14 (1993) 461-469), as the directions are kept.
 //!
 //! Held components have the equation `k z = 0`. Directions of earlier systems come before those of GMRES, which
 //! then works on what they leave (`directions`).
@@ -32,7 +35,7 @@ use super::session::Session;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::monitor::Monitor;
-use crate::problem::HeldSet;
+use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
 
 /// A pair on its piece.
@@ -48,6 +51,8 @@ pub struct System<'a> {
     /// The lack that a step takes away.
     lack: &'a [f64],
     pairs: Vec<Pair>,
+    /// The first unknown that GMRES works on: the first one of the pairs, or, without equilibrium inside, of all.
+    first: usize,
     /// The components that are held on the pieces of the point.
     pub held_set: HeldSet,
 }
@@ -62,8 +67,13 @@ pub struct Step {
 }
 
 impl<'a> System<'a> {
-    /// The system at a point; with springs in the held set only if it `has_springs`.
-    pub fn new(equations: &'a Equations<'a>, point: &'a Point, has_springs: bool) -> Self {
+    /// The system at a point of these bodies.
+    pub fn new(
+        equations: &'a Equations<'a>,
+        point: &'a Point,
+        bodies: &dyn StiffnessOperator,
+    ) -> Self {
+        let first = if bodies.is_exact() { equations.inner } else { 0 };
         let dim = equations.contact.dim();
         let mut held_set = HeldSet::all(dim, point.y.len());
         let laws = equations.contact.pairs().iter();
@@ -72,12 +82,12 @@ impl<'a> System<'a> {
             let on_piece = law.linearised(piece, y);
             let curvature = on_piece.curvature();
             (0..dim).for_each(|c| held_set.held[dim * at + c] = !on_piece.moves(c));
-            if on_piece.slips && has_springs {
+            if on_piece.slips && bodies.is_sparse() {
                 held_set.springs[at] = symmetric(&curvature);
             }
             pairs.push(Pair { on_piece, curvature });
         }
-        System { equations, lack: &point.lack, pairs, held_set }
+        System { equations, lack: &point.lack, pairs, first, held_set }
     }
 
     /// The step to a residual of the part `forcing`, with at most so many new directions, by the last factor, or,
@@ -89,15 +99,16 @@ impl<'a> System<'a> {
         known: &mut Directions,
         monitor: &mut Monitor<'_>,
     ) -> Result<Step, Ending> {
-        let inner = self.equations.inner;
-        let root = &self.equations.root[inner..];
+        let first = self.first;
+        let root = &self.equations.root[first..];
         let mut right = self.right();
         let lack = self.equations.length(self.lack);
         let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
         monitor.goes_on()?;
-        if bodies.held().is_some() {
-            let on_inner: Vec<f64> = self.lack[..inner].iter().map(|h| -h).collect();
-            sum = self.moved_by(bodies, (&on_inner, &right), monitor)?;
+        if bodies.held().is_some() && bodies.operator.is_exact() {
+            let mut all: Vec<f64> = self.lack[..first].iter().map(|h| -h).collect();
+            all.extend_from_slice(&right);
+            sum = self.moved_by(bodies, &all, monitor)?;
             let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
@@ -109,8 +120,9 @@ impl<'a> System<'a> {
         let (before, mut by_known) = (known.count(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
-            let w: Vec<f64> = v.iter().zip(root).map(|(v, root)| v * root).collect();
-            let moved = self.moved_by(bodies, (&vec![0.0; inner], &w), monitor)?;
+            let mut all = vec![0.0; first];
+            all.extend(v.iter().zip(root).map(|(v, root)| v * root));
+            let moved = self.moved_by(bodies, &all, monitor)?;
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
             known.add(moved);
@@ -122,16 +134,20 @@ impl<'a> System<'a> {
         let mut all = images.of_directions(by_known);
         all.extend(shares);
         known.add_shares(&all, &mut sum);
-        let dy = self.coordinates(&sum.z[inner..], &sum.forces);
+        let inner = self.equations.inner;
+        let dy = self.coordinates(&sum.z[inner..], &sum.forces[inner - first..]);
         let left = if known.count() - before < most { 0.0 } else { left / lack };
         known.forget();
         Ok(Step { moved: sum, dy, left })
     }
 
-    /// The right sides of all components, zero of held ones.
+    /// The right sides of all unknowns from the first one on, zero of held ones.
     fn right(&self) -> Vec<f64> {
         let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
-        let mut right = vec![0.0; lack.len()];
+        let inside = &self.lack[self.first..self.equations.inner];
+        let mut all: Vec<f64> = inside.iter().map(|h| -h).collect();
+        all.resize(self.lack.len() - self.first, 0.0);
+        let right = &mut all[inside.len()..];
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
             if !pair.on_piece.closed {
@@ -143,15 +159,15 @@ impl<'a> System<'a> {
                 });
             }
         }
-        right
+        all
     }
 
     /// The left sides for a change of all unknowns.
     fn rows(&self, Moved { z, forces }: &Moved) -> Vec<f64> {
         let (dim, inner) = (self.equations.contact.dim(), self.equations.inner);
-        let root = &self.equations.root[inner..];
-        let z = &z[inner..];
-        let mut rows = forces.clone();
+        let (root, z) = (&self.equations.root[inner..], &z[inner..]);
+        let mut all = forces.clone();
+        let (forces, rows) = (&forces[inner - self.first..], &mut all[inner - self.first..]);
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
             let turned = ellipse::product(&pair.curvature, tangential(&z[n..n + dim]));
@@ -164,31 +180,31 @@ impl<'a> System<'a> {
                 *row = root[i].powi(2) * z[i];
             }
         }
-        rows
+        all
     }
 
-    /// The displacements of forces on the inner unknowns and `w` on the pairs.
+    /// The displacements of forces on all unknowns.
     fn moved_by(
         &self,
         bodies: &mut Session<'_>,
-        (on_inner, w): (&[f64], &[f64]),
+        all: &[f64],
         monitor: &mut Monitor<'_>,
     ) -> Result<Moved, Ending> {
         let inner = self.equations.inner;
         let factor = bodies.held();
         let softens = factor.is_none() || !bodies.operator.is_sparse();
-        let mut w = w.to_vec();
+        let mut all = all.to_vec();
         if softens {
-            self.soften(&mut w);
+            self.soften(&mut all[inner..]);
         }
         let mut z = match factor {
-            Some(factor) => self.by_factor(bodies, &factor, (on_inner, &w), monitor)?,
-            None => self.by_inverse(bodies, w, monitor)?,
+            Some(factor) => self.by_factor(bodies, &factor, all, monitor)?,
+            None => self.by_inverse(bodies, all, monitor)?,
         };
         if softens {
             self.soften(&mut z[inner..]);
         }
-        let forces = bodies.operator.product(&z)?.split_off(inner);
+        let forces = bodies.operator.product(&z)?.split_off(self.first);
         Ok(Moved { z, forces })
     }
 
@@ -212,12 +228,12 @@ impl<'a> System<'a> {
         &self,
         bodies: &mut Session<'_>,
         factor: &HeldSet,
-        (on_inner, w): (&[f64], &[f64]),
+        mut forces: Vec<f64>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Vec<f64>, Ending> {
-        let mut forces = [on_inner, w].concat();
+        let inner = self.equations.inner;
         let mut released = vec![0.0; forces.len()];
-        if self.release(factor, w, &mut released[self.equations.inner..]) {
+        if self.release(factor, &forces[inner..], &mut released[inner..]) {
             let asked = bodies.operator.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }

@@ -1,0 +1,64 @@
+//! Solutions with the products and the preconditioner of bodies that have no factor.
+
+use super::{GoesOn, StiffnessOperator};
+use crate::error::Error;
+use crate::linalg::gmres::gmres;
+use crate::linalg::vector::norm;
+
+/// Most preconditionings of one solution: with a preconditioner that takes more nothing is solved in time.
+const MOST: usize = 200;
+
+/// Why GMRES has ended early.
+enum Ended {
+    ByHost(Error),
+    ByMonitor,
+}
+
+/// The solution `x` of `A x = forces` with components held, no springs among the others, that leaves `left` of the
+/// forces, each in its unit; with the number of preconditionings that it has taken. The components are those of the last
+/// [`StiffnessOperator::hold`], and `held` tells them. `None` where `goes_on` says no.
+///
+/// # Errors
+/// A failure in the host.
+pub fn iterated(
+    bodies: &mut dyn StiffnessOperator,
+    held: &[bool],
+    (forces, left): (&[f64], f64),
+    goes_on: GoesOn<'_>,
+) -> Result<Option<(Vec<f64>, u64)>, Error> {
+    let (inner, root) = (bodies.inner(), roots(bodies));
+    let free = |i: usize| i < inner || !held[i - inner];
+    let scaled = |forces: &[f64]| -> Vec<f64> {
+        let parts = forces.iter().zip(&root).enumerate();
+        parts.map(|(i, (force, root))| if free(i) { force / root } else { 0.0 }).collect()
+    };
+    let right = scaled(forces);
+    let mut directions: Vec<Vec<f64>> = Vec::new();
+    let found = gmres(&right, left * norm(&right), MOST, |v| {
+        let forces: Vec<f64> = v.iter().zip(&root).map(|(v, root)| v * root).collect();
+        let Some(z) = bodies.solve(&forces, goes_on)? else { return Err(Ended::ByMonitor) };
+        let image = scaled(&bodies.product(&z)?);
+        directions.push(z);
+        Ok(image)
+    });
+    let shares = match found {
+        Ok((shares, _)) => shares,
+        Err(Ended::ByMonitor) => return Ok(None),
+        Err(Ended::ByHost(error)) => return Err(error),
+    };
+    let mut x = vec![0.0; forces.len()];
+    for (share, z) in shares.iter().zip(&directions) {
+        x.iter_mut().zip(z).for_each(|(x, z)| *x += share * z);
+    }
+    Ok(Some((x, directions.len() as u64)))
+}
+
+fn roots(bodies: &dyn StiffnessOperator) -> Vec<f64> {
+    bodies.units().iter().map(|unit| unit.sqrt()).collect()
+}
+
+impl From<Error> for Ended {
+    fn from(error: Error) -> Self {
+        Ended::ByHost(error)
+    }
+}
