@@ -173,9 +173,9 @@ module signorini
         integer(c_int32_t) :: threads = 1
     end type
 
-    ! stiffness, inverse and held are c_funloc of bind(C) functions: see the header.
+    ! stiffness, inverse, held and precondition are c_funloc of bind(C) functions: see the header.
     type, bind(C) :: signorini_operator
-        integer(c_int32_t) :: struct_size = 16 + 5 * address_bytes
+        integer(c_int32_t) :: struct_size = 24 + 7 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         type(c_funptr) :: stiffness = c_null_funptr
@@ -183,6 +183,9 @@ module signorini
         type(c_funptr) :: held = c_null_funptr
         type(c_ptr) :: units = c_null_ptr
         type(c_ptr) :: user = c_null_ptr
+        integer(c_int64_t) :: unknowns = 0
+        type(c_ptr) :: place = c_null_ptr
+        type(c_funptr) :: precondition = c_null_funptr
     end type
 
     type, bind(C) :: signorini_report

@@ -10,7 +10,8 @@
  *     5  What may change     behind SIGNORINI_UNSTABLE
  *
  * signorini_surface.h makes the contact pairs from the faces of two meshes and writes files for
- * ParaView; signorini_file.h writes and reads problems, for bug reports.
+ * ParaView; signorini_file.h writes and reads problems, for bug reports; signorini_operator.h is
+ * for codes that hand over products in the place of a matrix.
  *
  * The problem. P pairs in dimension D (2 or 3) have N = D P unknowns: a relative displacement d and
  * a contact force F with one normal and D - 1 tangential components each, ordered pair by pair as
@@ -815,64 +816,6 @@ int32_t signorini_abi_version(void);
  */
 #define SIGNORINI_START_PREVIOUS 2
 
-typedef struct signorini_operator signorini_operator;
-
-/**
- * Your product, y = K_rel x or y = W x, with N entries. Returns 0; another number ends the call of
- * the library, whose sentence tells it. As a progress callback it must return, and not call this
- * library.
- */
-typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
-
-/**
- * Your solution with components held: y is 0 where held is nonzero, and K_rel y = x in the other
- * components; x counts only there. All have N entries. changed is 0 if the same components are
- * held as in the call before on this model, and that call has not failed: then a factor may serve
- * again. Returns as signorini_product_fn.
- */
-typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
-                                     const double *x, double *y);
-
-/**
- * Functions in the place of a matrix, say of a code on several processes. K_rel is the K of
- * signorini_solve.
- */
-struct signorini_operator {
-    uint32_t struct_size; /**< sizeof(signorini_operator). */
-    int32_t dim;          /**< Space dimension. */
-    int64_t pairs;        /**< Number of pairs. */
-    /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
-    signorini_product_fn stiffness;
-    /**
-     * y = W x, W close to the inverse of K_rel, symmetric, positive definite: a solution with the
-     * contact free. NULL: held is used alone.
-     */
-    signorini_product_fn inverse;
-    /** A solution with components held, in the place of W. May be NULL if inverse is given. */
-    signorini_held_fn held;
-    /**
-     * Positive numbers of the size of the diagonal of K_rel, N; force / length. NULL: one for each
-     * direction, from products.
-     */
-    const double *units;
-    void *user;           /**< First argument of the functions. */
-};
-
-/**
- * Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
- * displacements are the relative ones. Load cases are solved as in full space. They take up to 110
- * products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with
- * 14 changes of the components that are held.
- *
- * The call asks for some products, which must be finite, linear, symmetric, positive and the same
- * each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
- * finite; the model can be used again. Your functions run on the threads that call the library.
- *
- * @param K      the functions; the structure is copied, with units
- * @param model  out: the model
- */
-int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
-
 /**
  * Tries to prove that a load case has a solution next to displacements of any origin, in the
  * sense of SIGNORINI_PROOF_PROVED, and bounds its distance. Others may exist.
@@ -894,6 +837,10 @@ int32_t signorini_model_prove(const signorini_model *model, const double *f,
 
 #ifdef __cplusplus
 } /* extern "C" */
+#endif
+
+#ifdef SIGNORINI_UNSTABLE
+#include "signorini_operator.h"
 #endif
 
 #endif /* SIGNORINI_H */

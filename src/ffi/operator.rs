@@ -2,12 +2,15 @@
 
 use libc::c_void;
 
-use super::args::{c_entry, sizes};
+use super::args::{Arrays, c_entry, size, sizes};
 use super::guard::{self, Failure};
 use super::model::SignoriniModel;
+use super::sparse::shifted;
+use super::structures::Structure;
 use super::surroundings::in_host;
+use crate::error::Error;
 use crate::model::Model;
-use crate::reduce::HostOperator;
+use crate::reduce::{Held, HostOperator, PreconditionedOperator};
 
 /// Your product, y = K_rel x or y = W x, with N entries. Returns 0; another number ends the call of
 /// the library, whose sentence tells it. As a progress callback it must return, and not call this
@@ -26,6 +29,24 @@ pub type SignoriniHeldFn = Option<
         changed: i32,
         x: *const f64,
         y: *mut f64,
+    ) -> i32,
+>;
+
+/// Your preconditioner, with unknowns set: z near the solution of A z = r with components of d held
+/// and springs. No accuracy is asked, nor that it is linear or symmetric: one cycle of multigrid
+/// serves. held has N entries, nonzero where held; r and z do not count there. springs are to be
+/// added to A between the tangential components of each pair: force / length, one number for each
+/// pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is 0
+/// if held and springs are those of the call before on this model, and that call has not failed.
+/// Returns as signorini_product_fn.
+pub type SignoriniPreconditionFn = Option<
+    unsafe extern "C" fn(
+        user: *mut c_void,
+        held: *const i32,
+        springs: *const f64,
+        changed: i32,
+        r: *const f64,
+        z: *mut f64,
     ) -> i32,
 >;
 
@@ -52,6 +73,19 @@ pub struct SignoriniOperator {
     pub units: *const f64,
     /// First argument of the functions.
     pub user: *mut c_void,
+    /// 0: vectors have N entries, those of the pairs. Otherwise H, the number of all your unknowns,
+    /// of which the components of d are some: then stiffness is y = A x on all of them, exact but
+    /// for rounding; units is given, H; inverse and held are NULL.
+    pub unknowns: i64,
+    /// With unknowns set: the unknown that is each component of d, from 0, N.
+    pub place: *const i64,
+    /// With unknowns set.
+    pub precondition: SignoriniPreconditionFn,
+}
+
+// SAFETY: it begins with its size; numbers, pointers and functions that may be NULL.
+unsafe impl Structure for SignoriniOperator {
+    const OLDER: &'static [usize] = &[std::mem::offset_of!(Self, unknowns)];
 }
 
 /// The functions of a host.
@@ -101,16 +135,54 @@ impl HostOperator for Functions {
     }
 }
 
-/// Makes a model of products and solutions alone: no matrix is formed. H = N: loads and
-/// displacements are the relative ones. Load cases are solved as in full space. They take up to 110
-/// products with K_rel and as many with W in 2D, 160 in 3D; or with held up to 70 solutions, with
-/// 14 changes of the components that are held.
+/// The functions of a host on all of its unknowns.
+struct OfAllUnknowns {
+    stiffness: unsafe extern "C" fn(*mut c_void, *const f64, *mut f64) -> i32,
+    precondition:
+        unsafe extern "C" fn(*mut c_void, *const i32, *const f64, i32, *const f64, *mut f64) -> i32,
+    user: *mut c_void,
+}
+
+// SAFETY: as of `Functions`.
+unsafe impl Send for OfAllUnknowns {}
+// SAFETY: as above.
+unsafe impl Sync for OfAllUnknowns {}
+
+impl PreconditionedOperator for OfAllUnknowns {
+    fn product(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        // SAFETY: as of `Functions`; it writes as many entries as there are unknowns.
+        answered(in_host(|| unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) }))
+    }
+
+    fn precondition(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
+        let components: Vec<i32> = held.components.iter().map(|held| i32::from(*held)).collect();
+        let (springs, changed) = (held.springs.as_ptr(), i32::from(held.changed));
+        let (held, r, z) = (components.as_ptr(), r.as_ptr(), z.as_mut_ptr());
+        let (precondition, user) = (self.precondition, self.user);
+        // SAFETY: as above; `held` and `springs` have as many entries as the header says.
+        answered(in_host(|| unsafe { precondition(user, held, springs, changed, r, z) }))
+    }
+}
+
+/// Makes a model of your functions: no matrix is formed. They run on the threads that call the
+/// library.
+///
+/// With products and solutions of the pairs H = N: loads and displacements are the relative ones.
+/// Load cases are solved as in full space. They take up to 110 products with K_rel and as many with
+/// W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the components that are
+/// held.
+///
+/// With unknowns set A is symmetric, positive semi-definite, and takes the place of a sparse matrix:
+/// supports and the turn to the frames of the pairs are in it. Load cases are solved by Newton's
+/// method with FGMRES, in some 10 systems with some 10 preconditionings each. If Newton's method
+/// fails, problems with given thresholds of friction follow; no motion of a body that nothing holds
+/// is found. eta is measured by a product; the size of the loads beside it is known to a thousandth.
 ///
 /// The call asks for some products, which must be finite, linear, symmetric, positive and the same
 /// each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
-/// finite; the model can be used again. Your functions run on the threads that call the library.
+/// finite; the model can be used again.
 ///
-/// @param K      the functions; the structure is copied, with units
+/// @param K      the functions; the structure is copied, with units and place
 /// @param model  out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_operator(
@@ -119,17 +191,57 @@ pub unsafe extern "C" fn signorini_model_new_operator(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.out_pointer(2, "model", model)?;
-        let given = arrays.whole(1, "K", K)?;
-        let wrong = |message: &str| Failure::argument(1, message.to_owned());
-        let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
-        let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
-        let units = arrays.optional(1, "units", given.units, n)?;
-        let SignoriniOperator { inverse, held, user, .. } = *given;
-        let functions = Box::new(Functions { stiffness, inverse, held, user });
-        guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
-        place.fill(Model::operator(dim, pairs, functions, units), |_| 1)
+        let given = arrays.required_copy(1, "K", K)?;
+        let made = match given.unknowns {
+            0 => of_pairs(arrays, &given)?,
+            _ => of_all_unknowns(arrays, &given)?,
+        };
+        place.fill(made, |_| 1)
     })
 }
 
-/// Vectors of N entries that the check of an operator takes.
+fn wrong(message: &str) -> Failure {
+    Failure::argument(1, message.to_owned())
+}
+
+/// The model of products and solutions of the pairs.
+fn of_pairs(
+    arrays: &mut Arrays<'_>,
+    given: &SignoriniOperator,
+) -> Result<Result<Model, Error>, Failure> {
+    let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
+    let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+    if given.precondition.is_some() {
+        return Err(wrong("K: precondition needs unknowns, their number"));
+    }
+    let units = arrays.optional(1, "units", given.units, n)?;
+    let SignoriniOperator { inverse, held, user, .. } = *given;
+    let functions = Box::new(Functions { stiffness, inverse, held, user });
+    guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
+    Ok(Model::operator(dim, pairs, functions, units))
+}
+
+/// The model of products and a preconditioner on all unknowns.
+fn of_all_unknowns(
+    arrays: &mut Arrays<'_>,
+    given: &SignoriniOperator,
+) -> Result<Result<Model, Error>, Failure> {
+    let (dim, _, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
+    let unknowns = size(1, "unknowns", given.unknowns)?;
+    let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+    let precondition = given.precondition.ok_or_else(|| wrong("K: precondition is NULL"))?;
+    if given.inverse.is_some() || given.held.is_some() {
+        return Err(wrong(
+            "K: inverse and held are those of the pairs: with unknowns give precondition alone",
+        ));
+    }
+    let units = arrays.required(1, "units", given.units, unknowns)?;
+    let place = arrays.required(1, "place", given.place, n)?;
+    let place = shifted(1, "place", place, 0)?;
+    let functions = Box::new(OfAllUnknowns { stiffness, precondition, user: given.user });
+    guard::reserve(VECTORS.saturating_mul(unknowns).saturating_mul(size_of::<f64>()))?;
+    Ok(Model::preconditioned(dim, functions, units, &place))
+}
+
+/// Vectors that the check of an operator takes.
 const VECTORS: usize = 32;

@@ -102,13 +102,13 @@ impl PreconditionedReduction {
         host
     }
 
-    fn from_host(&self, host: &[f64]) -> Vec<f64> {
+    fn of_host(&self, host: &[f64]) -> Vec<f64> {
         self.places.iter().map(|&place| host[place]).collect()
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         let x = self.to_host(x);
-        Ok(self.from_host(&called("A x", x.len(), |y| self.operator.product(&x, y))?))
+        Ok(self.of_host(&called("A x", x.len(), |y| self.operator.product(&x, y))?))
     }
 
     fn precondition(&self, held_set: &HeldSet, forces: &[f64]) -> Result<Vec<f64>, Error> {
@@ -128,7 +128,7 @@ impl PreconditionedReduction {
         let changed = last.take().is_none_or(|last| last != *held_set);
         let held = Held { components: &held_set.held, springs: &springs, changed };
         let call = |z: &mut [f64]| self.operator.precondition(&held, &forces, z);
-        let mut z = self.from_host(&called("the preconditioner", forces.len(), call)?);
+        let mut z = self.of_host(&called("the preconditioner", forces.len(), call)?);
         *last = Some(held_set.clone());
         only_free(&mut z);
         Ok(z)
@@ -141,7 +141,7 @@ impl PreconditionedReduction {
         d: &[f64],
         goes_on: GoesOn<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let load = self.from_host(load);
+        let load = self.of_host(load);
         let inner = self.inner();
         if let Some(x) = self.last.of(&load, |x| &x[inner..] == d) {
             return Ok(Some(x));
@@ -196,7 +196,7 @@ impl Reduction for PreconditionedReduction {
         for (load, _) in cases {
             let Some(x) = self.with_pairs_at(load, &nothing, goes_on)? else { return Ok(None) };
             let forces = self.product(&x)?;
-            let load = self.from_host(load);
+            let load = self.of_host(load);
             condensed.push((inner..x.len()).map(|i| load[i] - forces[i]).collect());
         }
         Ok(Some(condensed))
@@ -229,7 +229,7 @@ impl MatrixFreeReduction for PreconditionedReduction {
     }
 
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
-        self.from_host(load)
+        self.of_host(load)
     }
 }
 

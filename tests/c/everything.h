@@ -1,5 +1,5 @@
 /*
- * All of the library for tests: the three headers with what may still change, what handles show in one expression,
+ * All of the library for tests: the headers with what may still change, what handles show in one expression,
  * and problems that are measured, proved or solved by a model of their own.
  */
 

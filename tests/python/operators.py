@@ -53,6 +53,34 @@ class Operators(unittest.TestCase):
         self.assert_same(model)
         self.assertTrue(changes and changes[0])
 
+    def test_a_preconditioner_on_all_unknowns(self):
+        """Two further unknowns come first, each on springs of 1 to a component and to the ground: condensed they are a spring
+        of 1/2. The preconditioner is a diagonal."""
+        A = np.zeros((SIZE + 2, SIZE + 2))
+        A[2:, 2:] = K + np.diag([1.0, 1.0] + [0.0] * (SIZE - 2))
+        A[:2, :2], A[:2, 2:4], A[2:4, :2] = 2 * np.eye(2), -np.eye(2), -np.eye(2)
+        condensed = A[2:, 2:] - A[2:, :2] @ A[:2, 2:] / 2
+        place, changes = 2 + np.arange(SIZE).reshape(-1, 2), []
+
+        def precondition(mask, springs, changed, r):
+            changes.append(changed)
+            diagonal = np.diag(A).copy()
+            diagonal[place[:, 1]] += springs[:, 0, 0]
+            self.assertEqual(mask.shape, (SIZE,))
+            return r / diagonal
+
+        model = signorini.Model.preconditioned(lambda x: A @ x, precondition, place, np.diag(A))
+        self.assertEqual((model.dim, model.pairs, model.host_size), (2, SIZE // 2, SIZE + 2))
+        load = np.concatenate([[0.0, 0.0], LOAD])
+        self.expected = signorini.solve(condensed, LOAD, 0.0, 0.3, tolerance=1e-12)
+        result = model.solve(load, 0.0, 0.3, tolerance=1e-12)
+        self.assertEqual(result.status, Status.SOLVED)
+        np.testing.assert_allclose(result.d, self.expected.d, atol=1e-10)
+        np.testing.assert_allclose(result.F, self.expected.F, atol=1e-10)
+        self.assertTrue(changes[0] and len(changes) == result.report.outer_iterations)
+        with self.assertRaisesRegex(ValueError, r"place has the shape \(2,\)"):
+            signorini.Model.preconditioned(lambda x: A @ x, precondition, [2, 3], np.diag(A))
+
     def test_what_a_function_raises_goes_on(self):
         broken = []
 

@@ -8,7 +8,8 @@ from collections import namedtuple
 
 import numpy as np
 
-from ._arrays import at, components, copied, fit, pairs_of, per_pair, reals, stiffness
+from ._arrays import (at, components, copied, fit, indices, integers, pairs_of, per_pair, reals,
+                      stiffness)
 from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
@@ -148,7 +149,28 @@ class Model:
         units: force per length of the components, N; None: from products.
         What one of the functions raises, the call of the model raises.
         """
-        host = HostFunctions(dim, pairs, stiffness, inverse, held, units)
+        return cls._of_host(HostFunctions(dim, pairs, units, stiffness=stiffness, inverse=inverse,
+                                          held=held))
+
+    @classmethod
+    def preconditioned(cls, product, precondition, place, units):
+        """Products and a preconditioner on all unknowns of the host, H of them; d are some of these.
+
+        product(x): A x, H.  precondition(mask, springs, changed, r): z of H entries near the
+        solution of A z = r, where components of d in mask, N, are held and springs, (P, D-1, D-1),
+        are added to A between the tangents of each pair; no accuracy is asked. changed tells
+        whether mask or springs are others than before.  place: the unknowns that are the
+        components of d, (P, D).  units: of the size of the diagonal of A, H.
+        What one of the functions raises, the call of the model raises.
+        """
+        place = indices(integers("place", place))
+        if place.ndim != 2 or place.shape[1] not in (2, 3):
+            raise ValueError(f"place has the shape {place.shape}: give (P, 2) or (P, 3)")
+        return cls._of_host(HostFunctions(place.shape[1], len(place), units, place=place,
+                                          stiffness=product, precondition=precondition))
+
+    @classmethod
+    def _of_host(cls, host):
         with host:
             model = cls("model_new_operator", ctypes.byref(host.structure))
         model._host = host

@@ -4,25 +4,36 @@ import ctypes
 
 import numpy as np
 
-from ._arrays import at, components
-from ._structures import HeldFunction, Operator, ProductFunction, sized
+from ._arrays import at, components, doubles, reals
+from ._structures import (HeldFunction, Operator, PreconditionFunction, ProductFunction,
+                          sized)
 
 
 class HostFunctions:
     """Functions of the host as the library calls them. None of what they raise may cross the library: it goes on
     where a `with` on this object ends."""
 
-    def __init__(self, dim, pairs, stiffness, inverse, held, units):
-        self._size, self._error = dim * pairs, None
-        self._units = components("units", units, pairs, dim, optional=True)
-        self.structure = sized(Operator, dim=dim, pairs=pairs, units=at(self._units))
-        given = {"stiffness": stiffness, "inverse": inverse, "held": held}
+    def __init__(self, dim, pairs, units, *, place=None, **given):
+        self._dim, self._pairs, self._error, self._place = dim, pairs, None, None
+        if place is None:
+            self._size = dim * pairs
+            self._units = components("units", units, pairs, dim, optional=True)
+            self.structure = sized(Operator, dim=dim, pairs=pairs, units=at(self._units))
+        else:
+            self._place, self._units = place, doubles(reals("units", units))
+            if self._units.ndim != 1:
+                shape = self._units.shape
+                raise ValueError(f"units has the shape {shape}: give one number for each unknown")
+            self._size = len(self._units)
+            self.structure = sized(Operator, dim=dim, pairs=pairs, units=at(self._units),
+                                   unknowns=self._size, place=at(place))
         for name, function in given.items():
             if function is None:
                 continue
             if not callable(function):
                 raise TypeError(f"{name} is {function!r}: give a function that returns an array")
-            called = self._held(function) if name == "held" else self._product(name, function)
+            called = {"held": self._held, "precondition": self._precondition}.get(name)
+            called = called(function) if called else self._product(name, function)
             setattr(self.structure, name, called)
 
     def __enter__(self):
@@ -42,6 +53,17 @@ class HostFunctions:
             return self._answer("held", y, function, held, bool(changed), self._copy(x))
 
         return HeldFunction(call)
+
+    def _precondition(self, function):
+        components, across = self._dim * self._pairs, self._dim - 1
+
+        def call(_, held, springs, changed, r, z):
+            held = np.ctypeslib.as_array(held, (components,)) != 0
+            springs = np.ctypeslib.as_array(springs, (self._pairs, across, across)).copy()
+            return self._answer("precondition", z, function, held, springs, bool(changed),
+                                self._copy(r))
+
+        return PreconditionFunction(call)
 
     def _copy(self, x):
         return np.ctypeslib.as_array(x, (self._size,)).copy()

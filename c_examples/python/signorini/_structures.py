@@ -21,6 +21,8 @@ Callback = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(Told))
 _numbers = ctypes.POINTER(real)
 ProductFunction = ctypes.CFUNCTYPE(i32, address, _numbers, _numbers)
 HeldFunction = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(i32), i32, _numbers, _numbers)
+PreconditionFunction = ctypes.CFUNCTYPE(i32, address, ctypes.POINTER(i32), _numbers, i32, _numbers,
+                                        _numbers)
 
 
 class Settings(ctypes.Structure):
@@ -87,7 +89,8 @@ class Operator(ctypes.Structure):
     _fields_ = [
         ("struct_size", u32), ("dim", i32), ("pairs", i64), ("stiffness", ProductFunction),
         ("inverse", ProductFunction), ("held", HeldFunction), ("units", address),
-        ("user", address),
+        ("user", address), ("unknowns", i64), ("place", address),
+        ("precondition", PreconditionFunction),
     ]
 
 
