@@ -119,7 +119,7 @@ impl KeptSurfaces {
     /// `pairs` are those of these surfaces.
     ///
     /// # Errors
-    /// Displacements that are not finite; [`Error::Stopped`]: the monitor ends it.
+    /// Displacements that are not finite; a shape with wrong numbers; [`Error::Stopped`]: the monitor ends it.
     pub fn penetration(
         &self,
         pairs: &SurfacePairs,
@@ -136,7 +136,8 @@ impl KeptSurfaces {
         let slaves = self.sides("slave", &moved, &self.slave)?;
         match &self.opposite {
             Opposite::Shape(shape) => {
-                let shape = shape.check(self.dim, 1.0).unwrap_or_else(|_| unreachable!("checked"));
+                let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
+                let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
                 self.deepest(pairs, &slaves, watch, |[before, face], asked| {
                     let depths = [before, face].map(|face| depth(face.position(asked.at)));

@@ -196,3 +196,18 @@ fn where_contact_holds_nothing_is_told() {
         }
     }
 }
+
+/// A shape that is none, and displacements that are none, are refused by name.
+#[test]
+fn what_is_no_shape_is_refused() {
+    let beam = Beam::new(4, Below::Plane, None);
+    let outward = [0.0; 3];
+    let nowhere = Obstacle::Plane { point: [0.0; 3], outward };
+    let x = beam.mesh.nodes.concat();
+    let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
+    let kept = KeptSurfaces::against_shape((2, &x), slave, nowhere);
+    let refused = kept.penetration(&beam.found, |_, _| 0.0, &mut unlimited()).unwrap_err();
+    assert!(refused.to_string().contains("its outward direction is zero"), "{refused}");
+    let refused = beam.kept.penetration(&beam.found, |_, _| f64::NAN, &mut unlimited());
+    assert!(refused.unwrap_err().to_string().contains("not finite"));
+}
