@@ -127,7 +127,9 @@ run_windows() {
     library_for x86_64-pc-windows-gnu || return 1
     WINEPREFIX=$work/wine
     WINEDEBUG=-all
-    export WINEPREFIX WINEDEBUG
+    # Wine keeps names of files in the encoding of this.
+    LC_ALL=C.UTF-8
+    export WINEPREFIX WINEDEBUG LC_ALL
     # Rust's standard library draws random numbers from a DLL that Wine has from version 9 on.
     mkdir -p "$work/wine.dll"
     x86_64-w64-mingw32-gcc -O1 -shared "$here/bcryptprimitives.c" -ladvapi32 -o "$work/wine.dll/bcryptprimitives.dll"
