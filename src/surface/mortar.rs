@@ -77,20 +77,17 @@ pub(super) fn pairs<'a>(
     let Search { candidates, shapes, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;
     let mut rows = rows(slave, &faces, planes, watch)?;
+    if normals == Normals::Averaged {
+        let averaged = slave.node_normals_on(planes, watch)?;
+        rows.iter_mut().for_each(|(node, row)| row.normal = row.area * averaged[node]);
+    }
     report.folded = rims::fold(rims, &mut rows, (slave, dim, planes));
-    let averaged = match normals {
-        Normals::Averaged => Some(slave.node_normals_on(planes, watch)?),
-        Normals::Faces => None,
-    };
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
             watch.goes_on()?;
             let (area, gap) = (row.area, row.gap / row.area);
-            let normal = match &averaged {
-                Some(normals) => normals[&node],
-                None => planes.turned(node, normal_of_faces(node, &row)?),
-            };
+            let normal = planes.turned(node, mean_normal(node, &row)?);
             let weights = row.into_weights();
             let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
             let pair = SurfacePair::new(dim, (node, area), weights, normal, points);
@@ -107,8 +104,8 @@ pub(super) fn pairs<'a>(
     Ok(SurfacePairs { dim, pairs, unpaired, report, ..SurfacePairs::default() })
 }
 
-/// The normal of a row from those of the faces in contact.
-fn normal_of_faces(node: usize, row: &Row) -> Result<Vector3, Error> {
+/// The normal of a row: the mean over what it covers, with the rows that it has taken in.
+fn mean_normal(node: usize, row: &Row) -> Result<Vector3, Error> {
     direction(row.normal, row.area).ok_or_else(|| {
         let message = format!("the normals of the slave faces at node {} cancel", index(node));
         Error::invalid(Argument::SlaveFaces, message)

@@ -19,7 +19,7 @@ pub(super) struct Row {
     pub(super) slaves: Vec<Weight>,
     /// Master nodes likewise.
     pub(super) masters: Vec<Weight>,
-    /// The faces' unit normals at the node times its areas on them, of length `D_j` if they agree.
+    /// Unit normals times their areas, of the faces at the node or its averaged one: of length `D_j` if they agree.
     pub(super) normal: Vector3,
     /// `D_j` times the gap between true shapes; 0 if the sides are their faces.
     pub(super) gap: f64,

@@ -347,6 +347,34 @@ fn kept_nodes_pass_the_patch_test_and_folded_ones_go_one_face_far() {
     }
 }
 
+/// An arc within a shorter one: the normals of nodes of even steps along a circle are its radii, and with them the mean of
+/// those that a row has taken in, by its areas, which is that of their places. So the force of each pair passes
+/// through the centre: without friction they turn nothing. To 1e-14, rounding of the sums.
+#[test]
+fn folded_rows_press_through_the_centre_of_a_circle() {
+    for (around, c) in [0.1, 0.3, 0.45, 0.7].into_iter().flat_map(|c| [(20, c), (40, c)]) {
+        let angle = std::f64::consts::FRAC_PI_2 / around as f64;
+        let arc = |radius: f64, places: Vec<f64>| -> Vec<Point> {
+            let angles = places.into_iter().map(|place| (angle * place).sin_cos());
+            angles.map(|(sin, cos)| [radius * cos, radius * sin, 0.0]).collect()
+        };
+        let last = around as f64 - 5.0 + c;
+        let inner = arc(1.0, steps(0.0, around as f64, around));
+        let outer = arc(1.001, steps(2.0 + c, last, 13));
+        let chain = |first: usize, count: usize| (first..first + count - 1).map(|k| vec![k, k + 1]);
+        let slave: Vec<Vec<usize>> =
+            chain(0, inner.len()).map(|face| vec![face[1], face[0]]).collect();
+        let master: Vec<Vec<usize>> = chain(inner.len(), outer.len()).collect();
+        let found =
+            pair(2, &[inner, outer].concat(), [&slave, &master], &with_rims(Rims::Fold)).unwrap();
+        assert_eq!(found.report.folded.len(), 2);
+        for SurfacePair { point: [x, y, _], normal, .. } in &found.pairs {
+            let arm = x * normal[1] - y * normal[0];
+            assert!(arm.abs() < 1e-14, "{around}, {c}: {arm:e}");
+        }
+    }
+}
+
 /// Nodes against surfaces have no cover: a choice for rims is refused, not ignored.
 #[test]
 fn rims_are_refused_where_nodes_have_no_cover() {
