@@ -16,6 +16,12 @@ impl Remembered {
         left?.downcast().ok().map(|left| *left)
     }
 
+    /// True if a `T` was left.
+    pub fn is<T: 'static>(&self) -> bool {
+        let left = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        left.as_ref().is_some_and(|left| left.is::<T>())
+    }
+
     /// Leaves this for the next problem.
     pub fn leave<T: Send + 'static>(&self, left: T) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(left));

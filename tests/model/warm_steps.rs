@@ -11,7 +11,12 @@ use crate::common::wavy::Wavy;
 #[test]
 fn steps_without_a_change_of_state_factorise_nothing() {
     let settings = Settings { tolerance: 1e-12, ..Settings::default() };
-    for (wavy, mu) in [(Wavy::plane(64), 0.3), (Wavy::plane(64), 0.0), (Wavy::space(9), 0.0)] {
+    for (wavy, mu) in [
+        (Wavy::plane(64), 0.3),
+        (Wavy::plane(64), 0.0),
+        (Wavy::space(9), 0.0),
+        (Wavy::space(9), 0.3),
+    ] {
         let model = wavy.model(&settings);
         let (gap, mu) = (vec![0.0; model.pairs()], vec![mu; model.pairs()]);
         let scaled = |part: f64| wavy.load.iter().map(|f| part * f).collect::<Vec<f64>>();

@@ -112,9 +112,9 @@ fn solve(
 ) -> Pivoted {
     let equations = Equations::of_lcp(lcp);
     let mut systems = Systems::of(&equations);
-    let before = systems.pieces_of(start.as_deref());
+    let before = systems.before(start.as_deref());
     let mut basic: Vec<bool> = match (before, &start) {
-        (Some(pieces), _) => pieces.iter().map(|piece| !piece.closed).collect(),
+        (Some((pieces, _)), _) => pieces.iter().map(|piece| !piece.closed).collect(),
         (None, Some(x)) => active_set(lcp, x, &lcp.w(x)),
         (None, None) => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
     };
@@ -158,7 +158,8 @@ fn solve(
         _ => Vec::new(),
     };
     let of_variable = |&basic: &bool| Piece { closed: !basic, ..Piece::OPEN };
-    systems.leave(|| (basic.iter().map(of_variable).collect(), x.clone()));
+    let pieces = || basic.iter().map(of_variable).collect();
+    systems.leave(|| ((pieces(), Vec::new()), x.clone()));
     Pivoted { x, w, ending, factorisations, orientation, definite }
 }
 

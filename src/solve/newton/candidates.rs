@@ -10,19 +10,20 @@
 //! that an earlier problem with the same matrix has eliminated are open in this one too, the contact problem on its
 //! candidates is at hand: sweeps are sweeps on them, and the search is one on a part of the pairs. If pairs outside close,
 //! the candidates of both problems are the next ones, so that a series in which the contact rocks soon has candidates
-//! for all of it. Where that fails the problem is solved as one that stands alone.
+//! for all of it. Where that fails the problem is solved as one that stands alone. The problem on the candidates remembers in
+//! the same way what it has worked out.
 
 use std::sync::Arc;
 
+use super::before::{Found, Kept, reduced};
 use super::iteration::Ended;
 use super::start::swept;
 use crate::law::Vector;
-use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::Remembered;
 use crate::solve::part::{ReducedProblem, closed_with_margin};
 use crate::solve::pieces::{Equations, Point};
-use crate::solve::result::{Call, Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Ending};
 
 /// Why there is no start.
 pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the largest number");
@@ -40,10 +41,10 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let whole = Equations::of(contact);
     let remembered = contact.problem().remembered();
     // Nothing is left of a problem that is not solved.
-    let before = remembered.and_then(Remembered::take::<Arc<Elimination>>);
+    let before = remembered.and_then(Remembered::take::<Kept>);
     let mut search =
         Search { tolerance: settings.tolerance, core, is_series: remembered.is_some() };
-    let begun = before.and_then(|before| begun(&whole, before, start, monitor));
+    let begun = before.and_then(|before| begun(&whole, &before, start, monitor));
     let mut spent = 0;
     let mut found = begun.and_then(|(reduced, y)| {
         let found = search.on(&whole, Some(reduced), y, monitor);
@@ -58,31 +59,18 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         let alone = search.on(&whole, None, y, monitor);
         found = Some(Found { systems: spent + alone.systems, ..alone });
     }
-    let found = found.expect("the problem alone has ended");
-    if let (Some(remembered), Some(elimination)) = (remembered, found.elimination)
-        && matches!(found.ending, Ending::Done | Ending::Stopped(_))
-    {
-        remembered.leave(elimination);
-    }
-    let mut candidate =
-        Candidate::new(found.d, found.force, found.ending, Effort::of_systems(found.systems));
-    candidate.orientation = found.orientation;
-    candidate
+    found.expect("the problem alone has ended").into_candidate()
 }
 
 /// The problem reduced as an earlier one, and coordinates of which those of the candidates come from sweeps on them;
 /// `None` if the candidates do not fit.
 fn begun<'w>(
     whole: &'w Equations<'w>,
-    before: Arc<Elimination>,
+    before: &Kept,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
-    let mut components = before.dropped().iter();
-    if !components.all(|i| whole.laws[i / whole.dim].is_free_when_open()) {
-        return None;
-    }
-    let reduced = ReducedProblem::by_elimination(whole, before);
+    let reduced = reduced(whole, &before.elimination)?;
     let start: Option<Vec<f64>> = start.map(|start| reduced.restrict(start));
     let equations = reduced.equations();
     let own = swept(&equations, start.as_deref(), monitor);
@@ -92,28 +80,6 @@ fn begun<'w>(
     let mut y = vec![[0.0; 3]; whole.laws.len()];
     reduced.kept().zip(own).for_each(|(pair, own)| y[pair] = own);
     fits.then_some((reduced, y))
-}
-
-/// Where a search has ended.
-struct Found {
-    /// Displacements, the force that they need, and their coordinates.
-    d: Vec<f64>,
-    force: Vec<f64>,
-    y: Vec<Vector>,
-    /// How it ended; its systems, and the orientation of the last one.
-    ending: Ending,
-    systems: u64,
-    orientation: i8,
-    /// What was eliminated beside the candidates, if anything was.
-    elimination: Option<Arc<Elimination>>,
-}
-
-impl From<Ended> for Found {
-    fn from(ended: Ended) -> Self {
-        let Ended { point, ending, systems, orientation } = ended;
-        let Point { y, d, force, .. } = point;
-        Found { d, force, y, ending, systems, orientation, elimination: None }
-    }
 }
 
 /// A search on candidates.
@@ -153,7 +119,11 @@ impl Search<'_, '_> {
                 }
             };
             kept = part.kept().collect();
-            let found = self.on_part(&part.equations(), part.of_kept(&y), monitor);
+            let of_candidates = Remembered::default();
+            let remembered = whole.remembered.map(|_| &of_candidates);
+            let equations = Equations { remembered, ..part.equations() };
+            let found = self.on_part(&equations, part.of_kept(&y), monitor);
+            drop(equations);
             systems += found.systems;
             if found.orientation != 0 {
                 orientation = found.orientation;
@@ -165,8 +135,13 @@ impl Search<'_, '_> {
             let is_last = !done || solved || part.closing(&y).is_empty();
             let ending = found.ending;
             if is_last {
-                let elimination = Some(Arc::clone(part.elimination()));
-                return Found { d, force, y, ending, systems, orientation, elimination };
+                if let Some(remembered) = whole.remembered
+                    && matches!(ending, Ending::Done | Ending::Stopped(_))
+                {
+                    let elimination = Arc::clone(part.elimination());
+                    remembered.leave(Kept { elimination, of_candidates });
+                }
+                return Found { d, force, y, ending, systems, orientation };
             }
         }
     }
@@ -184,7 +159,7 @@ impl Search<'_, '_> {
         self.is_series = false;
         let found = self.on(equations, None, y, monitor);
         self.is_series = true;
-        Found { elimination: None, ..found }
+        found
     }
 
     /// The problem on the candidates at the coordinates `y` and on the pairs that were `kept` before, unless a series has

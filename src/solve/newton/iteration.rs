@@ -33,6 +33,9 @@ const SWEEPS: usize = 2;
 const SHORT: f64 = 0.1;
 const RESWEEPS: usize = 20;
 
+/// Where steps with an earlier system come no nearer.
+pub const FAR: Ending = Ending::Stalled("the solution is far from the one before");
+
 /// How Newton's method ended, and where.
 pub struct Ended {
     /// The best point.
@@ -76,8 +79,8 @@ pub fn solve_in_plane(
     monitor: &mut Monitor<'_>,
 ) -> Option<Ended> {
     let mut dense = Dense::of(equations);
-    let before = dense.systems.pieces_of(start);
-    let again = before.and_then(|pieces| dense.on_pieces(pieces, monitor).ok());
+    let before = dense.systems.before(start);
+    let again = before.and_then(|(pieces, y)| dense.on_pieces(pieces, y, monitor).ok());
     if let Some(point) = again.as_ref().filter(|point| point.pieces == dense.pieces) {
         return Some(dense.descend(point.y.clone(), (tolerance, 0), monitor));
     }
@@ -85,6 +88,33 @@ pub fn solve_in_plane(
     let y = swept(equations, start, monitor);
     let is_finite = y.iter().flatten().all(|y| y.is_finite());
     is_finite.then(|| dense.descend(y, (tolerance, 1), monitor))
+}
+
+/// Solves the equations in space by steps with the system that the problem before with the same matrix has left, whose
+/// solution has the displacements `start`. `None`: nothing is left of it, or the first step does not come near.
+pub fn solve_again(
+    equations: &Equations<'_>,
+    start: &[f64],
+    tolerance: f64,
+    monitor: &mut Monitor<'_>,
+) -> Option<Ended> {
+    let mut dense = Dense::of(equations);
+    let (pieces, y) = dense.systems.before(Some(start))?;
+    monitor.step().ok()?;
+    let before = Point::on(equations, pieces, y);
+    let merit = before.merit;
+    (dense.pieces, dense.y) = (before.pieces.clone(), before.y.clone());
+    dense.orientation = dense.systems.orientation();
+    let point = dense.chords(before, monitor);
+    if !(point.merit < merit) {
+        return None;
+    }
+    let is_near = point.pieces == dense.pieces
+        || equations.eta(&point.d, &point.force) <= descent::AIM * tolerance;
+    match is_near {
+        true => Some(dense.descend(point.y, (tolerance, 0), monitor)),
+        false => Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
+    }
 }
 
 /// Solves the equations from the solution on given pieces of the plane, whatever the law says to it. `Err`: that system
@@ -96,7 +126,10 @@ pub fn from_pieces(
     monitor: &mut Monitor<'_>,
 ) -> Result<Ended, Ending> {
     let mut dense = Dense::of(equations);
-    let point = dense.on_pieces(pieces.to_vec(), monitor)?;
+    let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
+    let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
+    let y = equations.laws.iter().zip(pieces).map(inside).collect();
+    let point = dense.on_pieces(pieces.to_vec(), y, monitor)?;
     Ok(dense.descend(point.y, (tolerance, 0), monitor))
 }
 
@@ -129,19 +162,17 @@ impl<'e> Dense<'e> {
         }
     }
 
-    /// The solution on given pieces of the plane. `Err`: that system is singular, or there is no time for it.
+    /// The solution on given pieces of the plane, from any coordinates. `Err`: that system is singular, or there is no time for it.
     fn on_pieces(
         &mut self,
         pieces: Vec<Piece>,
+        y: Vec<Vector>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Point, Ending> {
-        let equations = self.equations;
-        let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
-        let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
-        let y: Vec<Vector> = equations.laws.iter().zip(&pieces).map(inside).collect();
         monitor.step()?;
-        let step = self.system(&Point::on(equations, pieces, y.clone()), monitor)?;
-        Ok(Point::new(equations, moved(&y, &step, 1.0)))
+        let point = Point::on(self.equations, pieces, y);
+        let step = self.system(&point, monitor)?;
+        Ok(Point::new(self.equations, moved(&point.y, &step, 1.0)))
     }
 
     /// Goes on from the coordinates `y` to a tolerance, with so many systems at least.
@@ -168,8 +199,10 @@ impl<'e> Dense<'e> {
             outcome = descent::solve(&mut self, outcome.point, goal, monitor);
         }
         let (systems, orientation) = (self.systems.factorisations, self.orientation);
-        let Dense { systems: left, pieces, .. } = self;
-        left.leave(|| (pieces, outcome.point.d.clone()));
+        let Dense { systems: left, pieces, equations, .. } = self;
+        let Point { y, d, pieces: of_point, .. } = &outcome.point;
+        let pieces = if equations.dim == 2 { pieces } else { of_point.clone() };
+        left.leave(|| ((pieces, y.clone()), d.clone()));
         Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
     }
 

@@ -3,9 +3,10 @@
 //!
 //! Some sweeps (`start`), then Newton's method with a line search (`iteration`). In the plane one factor serves many systems;
 //! in space the pairs that are surely open are eliminated first, and problems that share a matrix share what is eliminated
-//! (`candidates`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
+//! (`candidates`), and the factor of the solution before (`before`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
 //! they are as stiff (`levelled`).
 
+mod before;
 mod candidates;
 mod descent;
 mod iteration;
@@ -23,7 +24,7 @@ pub use uncertain_pairs::{PartOutcome, solve_part};
 use crate::law::Piece;
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
-use crate::solve::result::{Call, Candidate};
+use crate::solve::result::{Call, Candidate, Ending};
 
 /// Solves a problem by Newton's method.
 pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
@@ -38,6 +39,14 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     }
     let core: &mut candidates::Core<'_> =
         &mut |equations, y, monitor| iteration::solve(equations, y, settings.tolerance, monitor);
+    let whole = Equations::of(contact);
+    let start = call.start.filter(|_| whole.remembered.is_some());
+    let again = start.and_then(|start| before::again(&whole, start, settings.tolerance, monitor));
+    let near = match again {
+        Some(found) if found.ending == Ending::Done => return found.into_candidate(),
+        again => again.map(|found| found.d),
+    };
+    let call = &near.as_deref().map_or(*call, |d| call.from(d));
     match levelled::solve(call, monitor, core) {
         None => on_candidates(call, monitor, core),
         Some(levelled) => {

@@ -24,18 +24,20 @@ const SAME: f64 = 1e-6;
 /// The end of a solution, for the next problem with the same matrix.
 struct Left {
     system: System,
-    /// The pieces of the solution, and its displacements.
-    pieces: Vec<Piece>,
+    solution: Before,
     d: Vec<f64>,
 }
+
+/// Pieces and coordinates of the solution of a problem before with the same matrix.
+pub type Before = (Vec<Piece>, Vec<Vector>);
 
 /// Systems of the same equations.
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
-    /// The last system. In space it is one of a point, and serves no other one.
+    /// The last system. In space it is one of a point, and serves others near by as long as steps with it converge.
     last: Option<Updated<'e>>,
-    /// Pieces and displacements of the solution before, if the last system is what it has left.
-    before: Option<(Vec<Piece>, Vec<f64>)>,
+    /// The solution before with its displacements, if the last system is what it has left.
+    before: Option<(Before, Vec<f64>)>,
     /// Factorisations so far.
     pub factorisations: u64,
 }
@@ -43,33 +45,30 @@ pub struct Systems<'e> {
 impl<'e> Systems<'e> {
     /// None yet, or the one that the problem before with the same matrix has left.
     pub fn of(equations: &'e Equations<'e>) -> Self {
-        let left = equations.remembered.filter(|_| equations.dim < 3);
-        let left = left.and_then(Remembered::take::<Left>);
+        let left = equations.remembered.and_then(Remembered::take::<Left>);
         let left = left.filter(|left| left.system.fits(equations));
         let (last, before) = match left {
-            Some(Left { system, pieces, d }) => {
-                (Some(Updated::of(equations, system)), Some((pieces, d)))
+            Some(Left { system, solution, d }) => {
+                (Some(Updated::of(equations, system)), Some((solution, d)))
             }
             None => (None, None),
         };
         Systems { equations, last, before, factorisations: 0 }
     }
 
-    /// The pieces of the solution before, if `start` is that solution: in small steps of the loads most pairs stay on them.
-    pub fn pieces_of(&mut self, start: Option<&[f64]>) -> Option<Vec<Piece>> {
-        let (pieces, d) = self.before.take()?;
+    /// The solution before, if `start` has its displacements: in small steps of the loads most pairs stay on its pieces.
+    pub fn before(&mut self, start: Option<&[f64]>) -> Option<Before> {
+        let (solution, d) = self.before.take()?;
         let most = SAME * norm_inf(&d);
         let is_near = |(d, start): (&f64, &f64)| (d - start).abs() <= most;
-        start.filter(|start| d.iter().zip(*start).all(is_near)).map(|_| pieces)
+        start.filter(|start| d.iter().zip(*start).all(is_near)).map(|_| solution)
     }
 
-    /// Leaves the last system, and the solution with its pieces, for the next problem with the same matrix.
-    pub fn leave(self, solution: impl FnOnce() -> (Vec<Piece>, Vec<f64>)) {
-        if let (Some(remembered), true) = (self.equations.remembered, self.are_of_pieces())
-            && let Some(last) = self.last
-        {
-            let (pieces, d) = solution();
-            remembered.leave(Left { system: last.into_base(), pieces, d });
+    /// Leaves the last system, and the solution with its displacements, for the next problem with the same matrix.
+    pub fn leave(self, solution: impl FnOnce() -> (Before, Vec<f64>)) {
+        if let (Some(remembered), Some(last)) = (self.equations.remembered, self.last) {
+            let (solution, d) = solution();
+            remembered.leave(Left { system: last.into_base(), solution, d });
         }
     }
 
