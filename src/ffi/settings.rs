@@ -32,12 +32,11 @@ pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
 /// settings.warm_start of signorini_model_solve: each case starts from the solution of the last
-/// one that was solved, in this call or in earlier ones on the model with this setting; the
-/// first one as with 0. With friction in 3D they share an elimination: the model keeps 8 N N
-/// bytes at most, until it is released or a call has another start. The same calls in the same
-/// order give the same bits; another order may change last digits, and which of several
-/// solutions is found. Only one thread of those that share a model may use it. Other calls take
-/// it as 0.
+/// one that was solved, in this call or in earlier ones on the model with this setting; the first
+/// one as with 0. They share factors: the model keeps 24 N N bytes at most, until it is released
+/// or a call has another start. The same calls in the same order give the same bits; another
+/// order may change last digits, and which of several solutions is found. Only one thread of
+/// those that share a model may use it. Other calls take it as 0.
 pub const SIGNORINI_START_PREVIOUS: i32 = 2;
 
 /// Report only what the solution itself proves about other solutions. The default.

@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 /// Largest eigenvalue of the symmetric matrix `[[a, b], [b, c]]`.
 pub fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
-    Matrix2::new(a, b, b, c).symmetric_eigenvalues().max()
+    0.5 * a + 0.5 * c + (0.5 * a - 0.5 * c).hypot(b)
 }
 
 /// Both eigenvalues of the symmetric matrix `[[a, b], [b, c]]`, the smaller one first, and the unit vector that belongs to

@@ -11,11 +11,11 @@
 use std::cell::Cell;
 
 use crate::law::complementarity::lower_bounds;
-use crate::law::{Linearised, Piece};
+use crate::law::Linearised;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
-use crate::solve::pieces::{Equations, REFINEMENTS, Systems};
+use crate::solve::pieces::{Before, Equations, REFINEMENTS, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
 
@@ -114,7 +114,7 @@ fn solve(
     let mut systems = Systems::of(&equations);
     let before = systems.before(start.as_deref());
     let mut basic: Vec<bool> = match (before, &start) {
-        (Some((pieces, _)), _) => pieces.iter().map(|piece| !piece.closed).collect(),
+        (Some(before), _) => before.pieces.iter().map(|piece| !piece.closed).collect(),
         (None, Some(x)) => active_set(lcp, x, &lcp.w(x)),
         (None, None) => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
     };
@@ -157,9 +157,7 @@ fn solve(
         Ending::Done => systems.definite(&mut monitor.asking()),
         _ => Vec::new(),
     };
-    let of_variable = |&basic: &bool| Piece { closed: !basic, ..Piece::OPEN };
-    let pieces = || basic.iter().map(of_variable).collect();
-    systems.leave(|| ((pieces(), Vec::new()), x.clone()));
+    systems.leave(|| Before::of_variables(&basic, &x));
     Pivoted { x, w, ending, factorisations, orientation, definite }
 }
 

@@ -66,7 +66,8 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let least_systems = 1;
-    Dense::of(equations).descend(y, (tolerance, least_systems), monitor)
+    let point = Point::new(equations, y);
+    Dense::of(equations).descend(point, (tolerance, least_systems), monitor)
 }
 
 /// Solves the equations of a whole problem in the plane from displacements: from the solution on the pieces of the problem
@@ -79,15 +80,15 @@ pub fn solve_in_plane(
     monitor: &mut Monitor<'_>,
 ) -> Option<Ended> {
     let mut dense = Dense::of(equations);
-    let before = dense.systems.before(start);
-    let again = before.and_then(|(pieces, y)| dense.on_pieces(pieces, y, monitor).ok());
-    if let Some(point) = again.as_ref().filter(|point| point.pieces == dense.pieces) {
-        return Some(dense.descend(point.y.clone(), (tolerance, 0), monitor));
+    let before = dense.systems.before(start).map(|before| Point::of_before(equations, before));
+    let again = before.and_then(|point| dense.from(point, monitor).ok());
+    if again.as_ref().is_some_and(|point| point.pieces == dense.pieces) {
+        return again.map(|point| dense.descend(point, (tolerance, 0), monitor));
     }
     let start = again.as_ref().map(|point| &point.d[..]).or(start);
     let y = swept(equations, start, monitor);
     let is_finite = y.iter().flatten().all(|y| y.is_finite());
-    is_finite.then(|| dense.descend(y, (tolerance, 1), monitor))
+    is_finite.then(|| dense.descend(Point::new(equations, y), (tolerance, 1), monitor))
 }
 
 /// Solves the equations in space by steps with the system that the problem before with the same matrix has left, whose
@@ -99,21 +100,18 @@ pub fn solve_again(
     monitor: &mut Monitor<'_>,
 ) -> Option<Ended> {
     let mut dense = Dense::of(equations);
-    let (pieces, y) = dense.systems.before(Some(start))?;
+    let before = Point::of_before(equations, dense.systems.before(Some(start))?);
     monitor.step().ok()?;
-    let before = Point::on(equations, pieces, y);
-    let merit = before.merit;
+    let (merit, enough) = (before.merit, descent::AIM * tolerance);
     (dense.pieces, dense.y) = (before.pieces.clone(), before.y.clone());
     dense.orientation = dense.systems.orientation();
-    let point = dense.chords(before, monitor);
-    if !(point.merit < merit) {
-        return None;
-    }
-    let is_near = point.pieces == dense.pieces
-        || equations.eta(&point.d, &point.force) <= descent::AIM * tolerance;
-    match is_near {
-        true => Some(dense.descend(point.y, (tolerance, 0), monitor)),
-        false => Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
+    let point = dense.chords(before, enough, monitor);
+    let is_solved = dense.eta(&point) <= enough;
+    match point.merit < merit {
+        _ if is_solved => Some(dense.descend(point, (tolerance, 0), monitor)),
+        true if point.pieces == dense.pieces => Some(dense.descend(point, (tolerance, 0), monitor)),
+        true => Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
+        false => None,
     }
 }
 
@@ -129,8 +127,8 @@ pub fn from_pieces(
     let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
     let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
     let y = equations.laws.iter().zip(pieces).map(inside).collect();
-    let point = dense.on_pieces(pieces.to_vec(), y, monitor)?;
-    Ok(dense.descend(point.y, (tolerance, 0), monitor))
+    let point = dense.from(Point::on(equations, pieces.to_vec(), y), monitor)?;
+    Ok(dense.descend(point, (tolerance, 0), monitor))
 }
 
 /// Equations whose systems are factorised.
@@ -162,30 +160,23 @@ impl<'e> Dense<'e> {
         }
     }
 
-    /// The solution on given pieces of the plane, from any coordinates. `Err`: that system is singular, or there is no time for it.
-    fn on_pieces(
-        &mut self,
-        pieces: Vec<Piece>,
-        y: Vec<Vector>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Point, Ending> {
+    /// The solution on the pieces of a point of the plane. `Err`: that system is singular, or there is no time for it.
+    fn from(&mut self, point: Point, monitor: &mut Monitor<'_>) -> Result<Point, Ending> {
         monitor.step()?;
-        let point = Point::on(self.equations, pieces, y);
         let step = self.system(&point, monitor)?;
         Ok(Point::new(self.equations, moved(&point.y, &step, 1.0)))
     }
 
-    /// Goes on from the coordinates `y` to a tolerance, with so many systems at least.
+    /// Goes on from a point to a tolerance, with so many systems at least.
     fn descend(
         mut self,
-        y: Vec<Vector>,
+        point: Point,
         (tolerance, least_systems): (f64, u64),
         monitor: &mut Monitor<'_>,
     ) -> Ended {
         // In the plane the first solutions bring the zones near their places, whatever `|H|` is on the way.
         let full_steps = if self.equations.dim == 2 { FULL_STEPS } else { 0 };
         let mut goal = Goal { tolerance, least_systems, most_systems: MOST_SYSTEMS, full_steps };
-        let point = Point::new(self.equations, y);
         self.is_exact = point.pieces == self.pieces;
         let mut outcome = descent::solve(&mut self, point, goal, monitor);
         // A solution in the plane is exact once it is on the pieces of its system, however rough the tolerance is.
@@ -199,10 +190,8 @@ impl<'e> Dense<'e> {
             outcome = descent::solve(&mut self, outcome.point, goal, monitor);
         }
         let (systems, orientation) = (self.systems.factorisations, self.orientation);
-        let Dense { systems: left, pieces, equations, .. } = self;
-        let Point { y, d, pieces: of_point, .. } = &outcome.point;
-        let pieces = if equations.dim == 2 { pieces } else { of_point.clone() };
-        left.leave(|| ((pieces, y.clone()), d.clone()));
+        let Dense { systems: left, equations, .. } = self;
+        left.leave(|| outcome.point.clone().into_before(equations));
         Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
     }
 
@@ -221,11 +210,14 @@ impl<'e> Dense<'e> {
     /// Steps with the system `A` of an earlier point, as long as `|H|` falls nearly as after one with a new system `J`.
     ///
     /// The orientation stays that of `A`. If that of `J` differed, `A⁻¹ J` would have a negative eigenvalue, and what
-    /// lies along its vector would grow with each step.
-    fn chords(&mut self, mut point: Point, monitor: &mut Monitor<'_>) -> Point {
-        while !monitor.is_late() {
+    /// lies along its vector would grow with each step. The steps end where `eta` is `enough`.
+    fn chords(&mut self, mut point: Point, enough: f64, monitor: &mut Monitor<'_>) -> Point {
+        let equations = self.equations;
+        let is_enough =
+            |point: &Point| enough > 0.0 && equations.eta(&point.d, &point.force) <= enough;
+        while !monitor.is_late() && !is_enough(&point) {
             let Some(step) = self.systems.step(&point.lack) else { break };
-            let next = Point::new(self.equations, moved(&point.y, &step, 1.0));
+            let next = Point::new(equations, moved(&point.y, &step, 1.0));
             if !(next.merit < CHORD * point.merit) {
                 break;
             }
@@ -299,7 +291,7 @@ impl NormalMap for Dense<'_> {
             return swept;
         }
         if self.is_exact || part == 1.0 && !is_linear {
-            return self.chords(point, monitor);
+            return self.chords(point, 0.0, monitor);
         }
         if !is_linear {
             return point;

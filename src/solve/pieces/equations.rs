@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::before::Before;
 use crate::law::Piece;
 use crate::law::{Contact, Linearised, PairLaw, Vector};
 use crate::linalg::matrix::Matrix;
@@ -142,6 +143,7 @@ impl<'a> Equations<'a> {
 }
 
 /// A point of the law with its lack of equilibrium.
+#[derive(Clone)]
 pub struct Point {
     /// The coordinates, pair by pair.
     pub y: Vec<Vector>,
@@ -165,9 +167,33 @@ impl Point {
 
     /// The point at `y` on given pieces.
     pub fn on(equations: &Equations<'_>, pieces: Vec<Piece>, y: Vec<Vector>) -> Self {
+        Self::with_force(equations, (pieces, y), |d| equations.force(d))
+    }
+
+    /// The point of the solution before, under the loads of these equations.
+    pub fn of_before(equations: &Equations<'_>, before: Before) -> Self {
+        let Before { pieces, d, y, product } = before;
+        Self::with_force(equations, (pieces, y), |now| match now == d {
+            true => product.iter().zip(&*equations.load).map(|(product, f)| product - f).collect(),
+            false => equations.force(now),
+        })
+    }
+
+    /// The solution at this point, for the next problem.
+    pub fn into_before(self, equations: &Equations<'_>) -> Before {
+        let Point { y, pieces, d, force, .. } = self;
+        let product = force.iter().zip(&*equations.load).map(|(force, f)| force + f).collect();
+        Before { pieces, d, y, product }
+    }
+
+    fn with_force(
+        equations: &Equations<'_>,
+        (pieces, y): (Vec<Piece>, Vec<Vector>),
+        force: impl FnOnce(&[f64]) -> Vec<f64>,
+    ) -> Self {
         // Where the pushes are the lack is made.
         let (d, mut lack) = equations.values(&pieces, &y);
-        let force = equations.force(&d);
+        let force = force(&d);
         lack.iter_mut().zip(&force).for_each(|(lack, force)| *lack += force);
         let merit = equations.length(&lack);
         Point { y, pieces, d, force, lack, merit }

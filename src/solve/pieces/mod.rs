@@ -4,6 +4,7 @@
 //! the law is linear on each piece, in the plane and in complementarity problems, a factor is kept: `updated` solves
 //! the systems of other pieces, those near a factorised one (`systems`) and those of a path from piece to piece.
 
+mod before;
 mod columns;
 mod equations;
 mod system;
@@ -11,6 +12,7 @@ mod systems;
 mod term;
 mod updated;
 
+pub use before::Before;
 pub use equations::{Equations, Point, by_pairs};
 pub use system::{Border, System};
 pub use systems::{REFINEMENTS, SMALL, Systems};

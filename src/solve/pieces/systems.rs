@@ -1,10 +1,11 @@
 //! Newton's systems of one point after another. Where the law is linear on each piece, one factor serves the pieces near
 //! by.
 
+use super::before::Before;
 use super::equations::{Equations, by_pairs};
 use super::system::System;
 use super::updated::Updated;
-use crate::law::{Linearised, Piece, Vector};
+use crate::law::{Linearised, Vector};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
@@ -25,19 +26,15 @@ const SAME: f64 = 1e-6;
 struct Left {
     system: System,
     solution: Before,
-    d: Vec<f64>,
 }
-
-/// Pieces and coordinates of the solution of a problem before with the same matrix.
-pub type Before = (Vec<Piece>, Vec<Vector>);
 
 /// Systems of the same equations.
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
     /// The last system. In space it is one of a point, and serves others near by as long as steps with it converge.
     last: Option<Updated<'e>>,
-    /// The solution before with its displacements, if the last system is what it has left.
-    before: Option<(Before, Vec<f64>)>,
+    /// The solution before, if the last system is what it has left.
+    before: Option<Before>,
     /// Factorisations so far.
     pub factorisations: u64,
 }
@@ -48,8 +45,8 @@ impl<'e> Systems<'e> {
         let left = equations.remembered.and_then(Remembered::take::<Left>);
         let left = left.filter(|left| left.system.fits(equations));
         let (last, before) = match left {
-            Some(Left { system, solution, d }) => {
-                (Some(Updated::of(equations, system)), Some((solution, d)))
+            Some(Left { system, solution }) => {
+                (Some(Updated::of(equations, system)), Some(solution))
             }
             None => (None, None),
         };
@@ -58,17 +55,16 @@ impl<'e> Systems<'e> {
 
     /// The solution before, if `start` has its displacements: in small steps of the loads most pairs stay on its pieces.
     pub fn before(&mut self, start: Option<&[f64]>) -> Option<Before> {
-        let (solution, d) = self.before.take()?;
-        let most = SAME * norm_inf(&d);
+        let before = self.before.take()?;
+        let most = SAME * norm_inf(&before.d);
         let is_near = |(d, start): (&f64, &f64)| (d - start).abs() <= most;
-        start.filter(|start| d.iter().zip(*start).all(is_near)).map(|_| solution)
+        start.filter(|start| before.d.iter().zip(*start).all(is_near)).map(|_| before)
     }
 
-    /// Leaves the last system, and the solution with its displacements, for the next problem with the same matrix.
-    pub fn leave(self, solution: impl FnOnce() -> (Before, Vec<f64>)) {
+    /// Leaves the last system, and the solution, for the next problem with the same matrix.
+    pub fn leave(self, solution: impl FnOnce() -> Before) {
         if let (Some(remembered), Some(last)) = (self.equations.remembered, self.last) {
-            let (solution, d) = solution();
-            remembered.leave(Left { system: last.into_base(), solution, d });
+            remembered.leave(Left { system: last.into_base(), solution: solution() });
         }
     }
 
