@@ -241,7 +241,7 @@ else
     skip "ThreadSanitizer" "it builds all anew with Rust's nightly compiler: set SIGNORINI_THREAD_SANITIZER=1"
 fi
 for name in abi readme guide fortran two_blocks scripts python_package host_calculix calculix_contact host_getfem \
-    host_mumps host_mpi host_octave release; do
+    host_mumps host_mpi host_petsc host_octave release; do
     # shellcheck disable=SC2086 # --require or nothing
     step "$name" sh "tests/$name.sh" $hosts
 done
