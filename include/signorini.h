@@ -808,7 +808,7 @@ int32_t signorini_abi_version(void);
 /**
  * settings.warm_start of signorini_model_solve: each case starts from the solution of the last
  * one that was solved, in this call or in earlier ones on the model with this setting; the first
- * one as with 0. They share factors: the model keeps 24 N N bytes at most, until it is released
+ * one as with 0. They share factors: the model keeps 32 N N bytes at most, until it is released
  * or a call has another start. The same calls in the same order give the same bits; another
  * order may change last digits, and which of several solutions is found. Only one thread of
  * those that share a model may use it. Other calls take it as 0.

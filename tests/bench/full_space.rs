@@ -2,14 +2,15 @@
 //!
 //! `cargo bench --bench full_space -- plane 512 .3` solves half of a bar with 512 elements along a wavy obstacle,
 //! `space 16 .3` a block with 16 x 16 pairs, both graded away from the contact; a coefficient of friction for each
-//! run follows. With `condensed` before it the condensed matrix is formed, for comparison. One thread. Times and
+//! run follows. Told are a solution, the recovery of its displacements, and further cases of the same model that start from
+//! the case before: loads that grow by a hundredth, and loads of which a part is turned. With `condensed` before it the condensed matrix is formed, for comparison. One thread. Times and
 //! peaks are those of Linux.
 
 #[path = "../common/mod.rs"]
 mod common;
 
 use common::wavy::Wavy;
-use signorini::{FrictionLaw, LoadCase, Monitor, Settings};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Starts};
 
 fn main() {
     let mut wanted: Vec<String> =
@@ -55,6 +56,47 @@ fn main() {
             mu[0],
             cpu() - begin,
             peak(),
+            solution.iterations,
+            solution.factorisations,
+            solution.outer_iterations,
+            solution.message,
+        );
+        let begin = cpu();
+        let u = model.recover(Some(&wavy.load), wavy.prescribed.as_deref(), &solution.d);
+        u.expect("a solution");
+        println!("    recovered in {:.2} s", cpu() - begin);
+        further(&model, &wavy, &case);
+    }
+}
+
+/// Cases after the first one of a series.
+fn further(model: &Model, wavy: &Wavy, case: &LoadCase<'_>) {
+    let (mut series, settings) = (model.series(), Settings::default());
+    // Along one axis by more than along the others, which no case before has told apart.
+    let changed = |parts: [f64; 2]| -> [Vec<f64>; 2] {
+        let values = wavy.prescribed.clone().unwrap_or_default();
+        [wavy.load.clone(), values].map(|mut values| {
+            let part = |i: usize| parts[usize::from(!i.is_multiple_of(model.dim()))];
+            values.iter_mut().enumerate().for_each(|(i, value)| *value *= part(i));
+            values
+        })
+    };
+    let steps = [
+        ("first", [1.0, 1.0]),
+        ("grown", [1.01, 1.01]),
+        ("turned", [1.02, 1.0]),
+        ("back", [1.0, 1.01]),
+    ];
+    for (name, parts) in steps {
+        let [load, values] = changed(parts);
+        let prescribed = case.prescribed.map(|_| values.as_slice());
+        let case = LoadCase { load: &load, prescribed, ..*case };
+        let begin = cpu();
+        let solved = series.solve_cases(&[case], &settings, Starts::Previous(None), None);
+        let solution = solved.into_iter().next().expect("a case").expect("data that fit");
+        println!(
+            "    {name}: {:.2} s, {} systems, {} factorisations, {} solves, {}",
+            cpu() - begin,
             solution.iterations,
             solution.factorisations,
             solution.outer_iterations,

@@ -10,8 +10,8 @@
 
 use std::cell::Cell;
 
-use crate::law::complementarity::lower_bounds;
 use crate::law::Linearised;
+use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};

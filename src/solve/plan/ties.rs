@@ -8,14 +8,15 @@
 //! ```
 //!
 //! The forces of the ties follow from equilibrium. The certificate measures the whole on the host's data. A motion of the
-//! others that proves that no equilibrium exists moves no tie, and is judged on the whole too.
+//! others that proves that no equilibrium exists moves no tie, and is judged on the whole too. The next problem with the
+//! same matrix and the same ties has the same block, and what this one leaves of it.
 
 use crate::certificate::{Certificate, is_escape_of, measure};
 use crate::error::{Error, Message};
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, FrictionLaw};
+use crate::problem::{ContactProblem, FrictionLaw, Remembered};
 use crate::settings::Settings;
 use crate::solve::newton::refine_to_tolerance;
 use crate::solve::part::PairData;
@@ -45,15 +46,26 @@ pub fn without_ties(
         let start = start.as_deref().filter(|_| !contact.is_at_rest());
         solve(&Call { contact, settings: &settings, start }, monitor)?
     };
-    Ok(Some(others.on_whole(call, found, monitor)))
+    let solution = others.on_whole(call, found, monitor);
+    if let Some(remembered) = whole.remembered() {
+        remembered.leave(others.block);
+    }
+    Ok(Some(solution))
 }
 
-/// The pairs that are not tied, with what their problem consists of.
-struct Others {
+/// The block of the pairs that are not tied.
+struct Block {
     /// Their components.
     components: Vec<usize>,
     /// Column-major.
     matrix: Vec<f64>,
+    /// What their problems leave for each other.
+    remembered: Remembered,
+}
+
+/// The pairs that are not tied, with what their problem consists of.
+struct Others {
+    block: Block,
     load: Vec<f64>,
     own: PairData,
     /// All displacements, those of these pairs zero.
@@ -74,45 +86,52 @@ impl Others {
             held[dim * pair..dim * (pair + 1)].copy_from_slice(&laws[pair].reference()[..dim]);
         }
         let lack = problem.force_of_parts(&held, &vec![0.0; held.len()]);
-        let block = |&j: &usize| {
+        let column = |&j: &usize| {
             let column = problem.column(j);
             components.iter().map(|&i| column[i])
         };
+        let kept = problem.remembered().and_then(Remembered::take::<Block>);
+        let matrix = || components.iter().flat_map(column).collect();
+        let block = kept.filter(|block| block.components == components).unwrap_or_else(|| {
+            let (components, remembered) = (components.clone(), Remembered::default());
+            Block { matrix: matrix(), components, remembered }
+        });
         Others {
-            matrix: components.iter().flat_map(block).collect(),
             load: components.iter().map(|&i| -lack[i]).collect(),
             own: PairData::of(problem, &pairs),
             host: pairs.iter().map(|&pair| problem.host_pair(pair)).collect(),
-            components,
+            block,
             held,
         }
     }
 
     /// The problem of these pairs.
     fn problem<'p>(&'p self, whole: &ContactProblem<'p>) -> ContactProblem<'p> {
-        let size = self.components.len();
-        let matrix = Matrix::new(size, &self.matrix, size.max(1));
+        let size = self.block.components.len();
+        let matrix = Matrix::new(size, &self.block.matrix, size.max(1));
+        let remembered = whole.remembered().map(|_| &self.block.remembered);
         let PairData { gap, parameters, slip } = &self.own;
         let data = (gap.as_slice(), whole.law().with_values(parameters), slip.as_slice());
-        whole.on_part(matrix, &self.load, data).of_host(&self.host, whole.host_pairs())
+        let problem = whole.on_part(matrix, &self.load, data);
+        problem.of_host(&self.host, whole.host_pairs()).remembering(remembered)
     }
 
     /// The entries of these pairs.
     fn gathered(&self, values: &[f64]) -> Vec<f64> {
-        self.components.iter().map(|&i| values[i]).collect()
+        self.block.components.iter().map(|&i| values[i]).collect()
     }
 
     /// Values of all components from those of these pairs, the others zero.
     fn spread(&self, own: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.held.len()];
-        self.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
+        self.block.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
         all
     }
 
     /// All displacements from those of these pairs.
     fn displacements(&self, own: &[f64]) -> Vec<f64> {
         let mut all = self.held.clone();
-        self.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
+        self.block.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
         all
     }
 
