@@ -4,7 +4,7 @@
 
 static const double low[2][3] = {{0.0, 0.0, 0.0}, {-0.3, -0.3, -0.8}};
 static const double size[2][3] = {{1.0, 1.0, 1.0}, {1.6, 1.6, 0.8}};
-static const double press = 0.02, shift = 0.006, tilt = 0.015, radius = 4.0;
+static const double press = 0.02, shift = 0.006, tilt = 0.015; /* of the height */
 
 /* ---- Mesh ---------------------------------------------------------------------------------- */
 
@@ -16,8 +16,9 @@ PetscInt body_node(const struct body *body, PetscInt box, PetscInt i, PetscInt j
 
 double body_line(const struct body *body, PetscInt box, int axis, PetscInt node)
 {
-    const double share = (double)node / (double)(body->edge[box] - 1);
-    return low[box][axis] + size[box][axis] * share;
+    const PetscInt last = axis < 2 ? body->edge[box] - 1 : body->layers[box] - 1;
+    const double length = axis < 2 || box > 0 ? size[box][axis] : body->height;
+    return low[box][axis] + length * (double)node / (double)last;
 }
 
 static PetscErrorCode place_nodes(struct body *body)
@@ -26,7 +27,7 @@ static PetscErrorCode place_nodes(struct body *body)
     PetscCall(PetscMalloc1(3 * body->nodes, &body->at));
     for (PetscInt box = 0; box < body->boxes; box++) {
         const PetscInt n = body->edge[box];
-        for (PetscInt node = 0; node < n * n * n; node++) {
+        for (PetscInt node = 0; node < n * n * body->layers[box]; node++) {
             const PetscInt line[3] = {node % n, node / n % n, node / n / n};
             for (int axis = 0; axis < 3; axis++)
                 body->at[3 * (body->first[box] + node) + axis] =
@@ -42,10 +43,10 @@ int body_held(const struct body *body, PetscInt node, double u[3])
     const PetscInt layer = (node - body->first[box]) / (n * n);
     const double *at = body->at + 3 * node;
 
-    u[0] = box == 0 ? shift : 0.0;
+    u[0] = box == 0 ? shift * body->height : 0.0;
     u[1] = 0.5 * u[0] * at[0];
-    u[2] = box == 0 ? -press - tilt * (at[0] - 0.5) : 0.0;
-    return layer == (box == 0 ? n - 1 : 0);
+    u[2] = box == 0 ? -(press + tilt * (at[0] - 0.5)) * body->height : 0.0;
+    return layer == (box == 0 ? body->layers[0] - 1 : 0);
 }
 
 /* ---- Contact --------------------------------------------------------------------------------- */
@@ -53,7 +54,7 @@ int body_held(const struct body *body, PetscInt node, double u[3])
 /* Faces of a box at its bottom or at its top, anticlockwise as seen from outside. */
 static int64_t *faces_of(const struct body *body, PetscInt box, int top)
 {
-    const PetscInt n = body->edge[box], k = top ? n - 1 : 0;
+    const PetscInt n = body->edge[box], k = top ? body->layers[box] - 1 : 0;
     int64_t *faces = malloc((size_t)(4 * (n - 1) * (n - 1)) * sizeof *faces), *face = faces;
 
     for (PetscInt j = 0; faces != NULL && j + 1 < n; j++) {
@@ -77,9 +78,9 @@ static signorini_faces side(const struct body *body, PetscInt box, const int64_t
 /* Each process makes all pairs: they are few, and the same everywhere. */
 static PetscErrorCode make_pairs(struct body *body)
 {
-    static const signorini_obstacle ball = {.struct_size = sizeof ball,
-                                            .kind = SIGNORINI_OBSTACLE_SPHERE,
-                                            .point = {0.5, 0.5, -4.0}, .radius = radius};
+    const double radius = 4.0 / body->height;
+    const signorini_obstacle ball = {.struct_size = sizeof ball, .kind = SIGNORINI_OBSTACLE_SPHERE,
+                                     .point = {0.5, 0.5, -radius}, .radius = radius};
     int64_t *bottom = faces_of(body, 0, 0), *top = body->boxes > 1 ? faces_of(body, 1, 1) : NULL;
     const signorini_faces slave = side(body, 0, bottom);
     signorini_surface_settings settings;
@@ -208,13 +209,15 @@ static PetscErrorCode rigid_motions(struct body *body)
 
 /* ---- The whole ------------------------------------------------------------------------------- */
 
-PetscErrorCode body_new(PetscInt edge, PetscInt of_foundation, struct body *body)
+PetscErrorCode body_new(PetscInt edge, PetscInt layers, PetscInt of_foundation, struct body *body)
 {
     PetscFunctionBeginUser;
-    *body = (struct body){.boxes = of_foundation > 0 ? 2 : 1, .edge = {edge, of_foundation}};
+    *body = (struct body){.boxes = of_foundation > 0 ? 2 : 1, .edge = {edge, of_foundation},
+                          .layers = {layers, of_foundation},
+                          .height = (double)(layers - 1) / (double)(edge - 1)};
     for (PetscInt box = 0; box < MOST_BOXES_OF_BODY; box++)
         body->first[box + 1] =
-            body->first[box] + body->edge[box] * body->edge[box] * body->edge[box];
+            body->first[box] + body->edge[box] * body->edge[box] * body->layers[box];
     body->nodes = body->first[MOST_BOXES_OF_BODY];
     body->unknowns = 3 * body->nodes;
     PetscCall(place_nodes(body));

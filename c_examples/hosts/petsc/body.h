@@ -28,7 +28,9 @@ enum { MOST_BOXES_OF_BODY = 2 };
 
 struct body {
     PetscInt boxes, nodes, unknowns;
-    PetscInt edge[MOST_BOXES_OF_BODY];      /* nodes along each edge of a box */
+    PetscInt edge[MOST_BOXES_OF_BODY];      /* nodes of a box along x and y, */
+    PetscInt layers[MOST_BOXES_OF_BODY];    /* and along z */
+    double height;                          /* of the cube, or of a plate in its place */
     PetscInt first[MOST_BOXES_OF_BODY + 1]; /* first node of a box */
     double *at;                             /* coordinates of the nodes */
     signorini_surface_pairs *contact;
@@ -39,15 +41,18 @@ struct body {
     MatNullSpace rigid;                     /* rigid motions in x, for GAMG */
 };
 
-/* Collective. `edge` nodes along each edge of the cube and of the foundation; 0 of these: the ball. */
-PetscErrorCode body_new(PetscInt edge, PetscInt of_foundation, struct body *body);
+/*
+ * Collective. `edge` nodes along x and y, `layers` along z, in bricks that are cubes; of the foundation as
+ * many along each edge; 0: the ball. Of a plate its motion is smaller and the ball is larger.
+ */
+PetscErrorCode body_new(PetscInt edge, PetscInt layers, PetscInt of_foundation, struct body *body);
 
 PetscErrorCode body_free(struct body *body);
 
 /* The displacement of a node that a support holds, and whether one does. */
 int body_held(const struct body *body, PetscInt node, double u[3]);
 
-/* Lines along each axis of a box, for brick_mesh.h: all edges have as many nodes. */
+/* The coordinate of the nodes of a line across an axis. */
 double body_line(const struct body *body, PetscInt box, int axis, PetscInt node);
 
 /* The node at the crossing of three lines of a box. */

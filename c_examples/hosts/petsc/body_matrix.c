@@ -97,7 +97,7 @@ static PetscErrorCode add_box(struct body *body, PetscInt box, const int64_t *pa
             at[c][axis] = body_line(body, box, axis, corner[c][axis]);
     brick_stiffness(at, material, k);
     PetscCall(MatGetOwnershipRange(body->A, &begin, &end));
-    for (PetscInt brick = 0; brick < (n - 1) * (n - 1) * (n - 1); brick++) {
+    for (PetscInt brick = 0; brick < (n - 1) * (n - 1) * (body->layers[box] - 1); brick++) {
         const PetscInt i = brick % (n - 1), j = brick / (n - 1) % (n - 1),
                        layer = brick / (n - 1) / (n - 1);
         int at_contact = 0;
@@ -127,7 +127,7 @@ static PetscErrorCode reserve(struct body *body)
     for (PetscInt i = 0; i < 3 * local; i++) {
         const PetscInt node = first + i / 3, box = node >= body->first[1], n = body->edge[box];
         const PetscInt layer = (node - body->first[box]) / (n * n);
-        const int couples = body->boxes > 1 && (box == 0 ? layer < 2 : layer == n - 1);
+        const int couples = body->boxes > 1 && (box == 0 ? layer < 2 : layer == body->layers[box] - 1);
         entries[i] = couples ? 300 : 81;
     }
     PetscCall(MatCreateAIJ(PETSC_COMM_WORLD, 3 * local, 3 * local, body->unknowns, body->unknowns,

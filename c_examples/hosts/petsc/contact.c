@@ -5,6 +5,7 @@
  * the answer (multigrid.c). body.h has a drawing, and how the matrix is made.
  *
  *     mpirun -n 2 contact -edge 12                     a cube of 12 x 12 x 12 nodes on a ball
+ *     mpirun -n 2 contact -edge 30 -layers 4           a plate
  *     mpirun -n 2 contact -edge 9 -foundation 8        on a foundation of another mesh
  *
  * -check compares with the library alone on the whole matrix; -forces FILE writes the contact
@@ -90,7 +91,7 @@ static struct brick_mesh *whole_mesh(const struct body *body)
 
     for (PetscInt box = 0; box < body->boxes; box++) {
         for (int axis = 0; axis < 3; axis++) {
-            const PetscInt nodes = body->edge[box];
+            const PetscInt nodes = axis < 2 ? body->edge[box] : body->layers[box];
             lines[box][axis] = obtain(nodes, sizeof(double));
             for (PetscInt node = 0; node < nodes; node++)
                 lines[box][axis][node] = body_line(body, box, axis, node);
@@ -219,7 +220,7 @@ static PetscErrorCode run(int *result)
     struct multigrid grid;
     struct found found = {0};
     struct checks checks = {0, 0};
-    PetscInt edge = 12, of_foundation = 0;
+    PetscInt edge = 12, layers = 0, of_foundation = 0;
     PetscReal tolerance = 1e-10;
     PetscBool check = PETSC_FALSE, writes;
     PetscMPIInt rank, parts;
@@ -228,13 +229,14 @@ static PetscErrorCode run(int *result)
 
     PetscFunctionBeginUser;
     PetscCall(PetscOptionsGetInt(NULL, NULL, "-edge", &edge, NULL));
+    PetscCall(PetscOptionsGetInt(NULL, NULL, "-layers", &layers, NULL));
     PetscCall(PetscOptionsGetInt(NULL, NULL, "-foundation", &of_foundation, NULL));
     PetscCall(PetscOptionsGetReal(NULL, NULL, "-tolerance", &tolerance, NULL));
     PetscCall(PetscOptionsGetBool(NULL, NULL, "-check", &check, NULL));
     PetscCall(PetscOptionsGetString(NULL, NULL, "-forces", file, sizeof file, &writes));
     PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
     PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &parts));
-    PetscCall(body_new(edge, of_foundation, &body));
+    PetscCall(body_new(edge, layers > 0 ? layers : edge, of_foundation, &body));
     PetscCall(multigrid_new(&body, &grid));
     PetscCall(used(before));
     if (rank == 0)
