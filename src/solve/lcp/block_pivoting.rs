@@ -112,14 +112,8 @@ fn solve(
 ) -> Pivoted {
     let equations = Equations::of_lcp(lcp);
     let mut systems = Systems::of(&equations);
-    let before = systems.before(start.as_deref());
-    let mut basic: Vec<bool> = match (before, &start) {
-        (Some(before), _) => before.pieces.iter().map(|piece| !piece.closed).collect(),
-        (None, Some(x)) => active_set(lcp, x, &lcp.w(x)),
-        (None, None) => (0..lcp.q.len()).map(|i| lcp.is_free(i)).collect(),
-    };
-    let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
-    let mut iterate = Iterate { lcp, systems, w: lcp.w(&x), x };
+    let (mut basic, x, w) = begin(lcp, systems.before(start.as_deref()), start);
+    let mut iterate = Iterate { lcp, systems, w, x };
     let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
@@ -157,8 +151,30 @@ fn solve(
         Ending::Done => systems.definite(&mut monitor.asking()),
         _ => Vec::new(),
     };
-    systems.leave(|| Before::of_variables(&basic, &x));
+    systems.leave(|| Before::of_variables(&basic, (&x, &w), lcp.q));
     Pivoted { x, w, ending, factorisations, orientation, definite }
+}
+
+/// The active set, the variables and their `w` at which a solution begins: where the one before has ended, at the start, or
+/// at zero.
+fn begin(
+    lcp: &BoundedLcp<'_>,
+    before: Option<Before>,
+    start: Option<Vec<f64>>,
+) -> (Vec<bool>, Vec<f64>, Vec<f64>) {
+    if let Some(Before { pieces, d, product, .. }) = before {
+        let basic = pieces.iter().map(|piece| !piece.closed).collect();
+        let w = product.iter().zip(lcp.q).map(|(product, q)| product + q).collect();
+        return (basic, d, w);
+    }
+    let is_given = start.is_some();
+    let x = start.unwrap_or_else(|| vec![0.0; lcp.q.len()]);
+    let w = lcp.w(&x);
+    let basic = match is_given {
+        true => active_set(lcp, &x, &w),
+        false => (0..x.len()).map(|i| lcp.is_free(i)).collect(),
+    };
+    (basic, x, w)
 }
 
 /// An iterate with its `w`.

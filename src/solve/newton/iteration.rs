@@ -106,13 +106,13 @@ pub fn solve_again(
     (dense.pieces, dense.y) = (before.pieces.clone(), before.y.clone());
     dense.orientation = dense.systems.orientation();
     let point = dense.chords(before, enough, monitor);
-    let is_solved = dense.eta(&point) <= enough;
-    match point.merit < merit {
-        _ if is_solved => Some(dense.descend(point, (tolerance, 0), monitor)),
-        true if point.pieces == dense.pieces => Some(dense.descend(point, (tolerance, 0), monitor)),
-        true => Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
-        false => None,
+    match (point.merit < merit, point.pieces == dense.pieces) {
+        (true, true) => {}
+        _ if dense.eta(&point) <= enough => {}
+        (true, false) => return Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
+        (false, _) => return None,
     }
+    Some(dense.descend(point, (tolerance, 0), monitor))
 }
 
 /// Solves the equations from the solution on given pieces of the plane, whatever the law says to it. `Err`: that system
