@@ -58,10 +58,13 @@ fn polynomial(kind: FaceKind, at: impl Fn(usize) -> f64) -> Polynomial {
 }
 
 /// A polynomial with its derivatives.
+#[inline]
 fn evaluate(c: &Polynomial, [s, t]: Local) -> [f64; 3] {
-    let [low, mid, high] = c.map(|[c0, c1, c2]| [c0 + t * (c1 + t * c2), c1 + 2.0 * t * c2]);
-    let sum = |k: usize| low[k] + s * (mid[k] + s * high[k]);
-    [sum(0), mid[0] + 2.0 * s * high[0], sum(1)]
+    let value = |[c0, c1, c2]: &[f64; POWERS]| c0 + t * (c1 + t * c2);
+    let slope = |[_, c1, c2]: &[f64; POWERS]| c1 + 2.0 * t * c2;
+    let ([low, mid, high], [a, b, c]) =
+        ([value(&c[0]), value(&c[1]), value(&c[2])], [slope(&c[0]), slope(&c[1]), slope(&c[2])]);
+    [low + s * (mid + s * high), mid + 2.0 * s * high, a + s * (b + s * c)]
 }
 
 impl Curved {
@@ -99,7 +102,8 @@ impl Curved {
 
     fn newton(&self, p: Point, mut at: Local) -> Option<Local> {
         for _ in 0..STEPS {
-            let [[x, a, b], [y, c, d]] = [&self.x[0], &self.x[1]].map(|x| evaluate(x, at));
+            let [x, a, b] = evaluate(&self.x[0], at);
+            let [y, c, d] = evaluate(&self.x[1], at);
             let from = [x - p[0], y - p[1]];
             let determinant = a * d - b * c;
             let step = [
@@ -118,7 +122,7 @@ impl Curved {
 
     /// The place in the plane.
     pub(super) fn place(&self, at: Local) -> Point {
-        [&self.x[0], &self.x[1]].map(|x| evaluate(x, at)[0])
+        [evaluate(&self.x[0], at)[0], evaluate(&self.x[1], at)[0]]
     }
 
     /// The height above the plane.
@@ -128,7 +132,7 @@ impl Curved {
 
     /// Derivatives by the local coordinates.
     pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
-        let [x, y, z] = self.x.each_ref().map(|x| evaluate(x, at));
+        let [x, y, z] = [0, 1, 2].map(|c| evaluate(&self.x[c], at));
         [Vector3::new(x[1], y[1], z[1]), Vector3::new(x[2], y[2], z[2])]
     }
 

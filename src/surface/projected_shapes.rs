@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use super::overlap::{Meeting, Part};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
+use crate::linalg::simd::vectorised;
 
 /// A monomial that is this close to a combination of those before it adds nothing: the covered part has
 /// fewer points than functions.
@@ -18,8 +19,14 @@ const DEPENDENT: f64 = 1e-10;
 /// Passes of orthogonalisation: the second removes what rounding left of the first.
 const PASSES: usize = 2;
 
+/// A monomial that keeps this share of its norm has lost no digit in the first pass.
+const KEPT: f64 = 0.5;
+
 /// Sums that run beside each other: a processor adds several numbers at a time.
-const LANES: usize = 4;
+const LANES: usize = 8;
+
+/// Most nodes of a linear face.
+const MOST_LINEAR: usize = 4;
 
 /// The part of a slave face over one master face.
 #[derive(Clone, Debug)]
@@ -76,17 +83,27 @@ pub(super) struct Polynomials {
 }
 
 /// The sum of products.
+#[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (parts, a) = a.as_chunks::<LANES>();
+    let (others, b) = b.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
-    let (parts, others) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let ends = parts.remainder().iter().zip(others.remainder());
-    let end: f64 = ends.map(|(a, b)| a * b).sum();
-    for (a, b) in parts.zip(others) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
+    for (part, other) in parts.iter().zip(others) {
+        (0..LANES).for_each(|k| sums[k] += part[k] * other[k]);
     }
-    sums.iter().sum::<f64>() + end
+    sums.iter().sum::<f64>() + a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
+}
+
+/// Adds to sums of products, for each of some polynomials and the first `N` functions at a point.
+#[inline(always)]
+fn add_products<const N: usize>(
+    moments: &mut [Values],
+    polynomials: impl Iterator<Item = f64>,
+    functions: &Values,
+) {
+    for (sums, p) in moments.iter_mut().zip(polynomials) {
+        (0..N).for_each(|k| sums[k] += p * functions[k]);
+    }
 }
 
 /// Middle and half width of the points along each local coordinate.
@@ -102,6 +119,7 @@ fn centre_and_scale(points: &[Meeting]) -> [(f64, f64); 2] {
 
 impl Polynomials {
     /// Makes the polynomials of a face with these points.
+    #[inline(always)]
     fn span(&mut self, kind: FaceKind, points: &[Meeting]) {
         self.points = points.len();
         self.at_nodes.clear();
@@ -122,12 +140,17 @@ impl Polynomials {
     }
 
     /// Makes `next` orthonormal to what is there, and adds it.
+    #[inline(always)]
     fn add(&mut self, mut at_nodes: Values, points: &[Meeting]) {
         let norm = |values: &[f64]| -> f64 {
             values.iter().zip(points).map(|(p, point)| point.weight * p * p).sum::<f64>().sqrt()
         };
         let before = norm(&self.next);
-        for _ in 0..PASSES {
+        let mut left = before;
+        for pass in 0..PASSES {
+            if pass > 0 && left >= KEPT * before {
+                break;
+            }
             for (other, other_at_nodes) in self.at_nodes.iter().enumerate() {
                 let range = other * self.points..(other + 1) * self.points;
                 let part = dot(&self.weighted[range.clone()], &self.next);
@@ -136,27 +159,29 @@ impl Polynomials {
                 let pairs = at_nodes.iter_mut().zip(other_at_nodes);
                 pairs.for_each(|(p, other)| *p -= part * other);
             }
+            left = norm(&self.next);
         }
-        let norm = norm(&self.next);
-        if norm > DEPENDENT * before {
-            at_nodes.iter_mut().for_each(|p| *p /= norm);
+        if left > DEPENDENT * before {
+            at_nodes.iter_mut().for_each(|p| *p /= left);
             self.at_nodes.push(at_nodes);
-            self.at_points.extend(self.next.iter().map(|p| p / norm));
+            self.at_points.extend(self.next.iter().map(|p| p / left));
             let made = &self.at_points[self.weighted.len()..];
             self.weighted.extend(made.iter().zip(points).map(|(p, point)| point.weight * p));
         }
     }
 
     /// Adds what one master face has to the coefficients of its nodes.
+    #[inline(always)]
     fn add_moments(&self, opposite: &Opposite<'_>, points: &[Meeting], covered: &mut Covered) {
         let (nodes, count) = (covered.slaves, opposite.nodes.len());
         let mut moments = [[0.0; MOST_NODES]; MOST_NODES];
         for at in opposite.points.clone() {
-            let shape = opposite.kind.values(points[at].master);
-            for (k, moments) in moments[..self.at_nodes.len()].iter_mut().enumerate() {
-                let p = self.weighted[k * self.points + at];
-                let sums = moments[..count].iter_mut().zip(&shape);
-                sums.for_each(|(sum, value)| *sum += p * value);
+            let functions = opposite.kind.values(points[at].master);
+            let made = self.weighted[at..].iter().step_by(self.points).copied();
+            if count <= MOST_LINEAR {
+                add_products::<MOST_LINEAR>(&mut moments, made, &functions);
+            } else {
+                add_products::<MOST_NODES>(&mut moments, made, &functions);
             }
         }
         for (k, &node) in opposite.nodes.iter().enumerate() {
@@ -186,6 +211,19 @@ impl Polynomials {
 
     /// Integrates over the points of a slave face that belong to master faces.
     pub(super) fn project(
+        &mut self,
+        slave: FaceKind,
+        points: &[Meeting],
+        parts: &[Opposite<'_>],
+    ) -> Covered {
+        vectorised(
+            #[inline(always)]
+            || self.integrate(slave, points, parts),
+        )
+    }
+
+    #[inline(always)]
+    fn integrate(
         &mut self,
         slave: FaceKind,
         points: &[Meeting],

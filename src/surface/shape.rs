@@ -146,6 +146,7 @@ impl FaceKind {
     }
 
     /// Shape functions at a point.
+    #[inline]
     pub(super) fn values(self, at: Local) -> Values {
         let [s, t] = at;
         let mut values = [0.0; MOST_NODES];
@@ -155,6 +156,19 @@ impl FaceKind {
             Q4 => {
                 let [(a, b), (c, d)] = at.map(|s| (0.5 * (1.0 - s), 0.5 * (1.0 + s)));
                 values[..4].copy_from_slice(&[a * c, b * c, b * d, a * d]);
+            }
+            T6 => {
+                let corners = [1.0 - s - t, s, t];
+                values[..3].copy_from_slice(&corners);
+                for (mid, [a, b]) in self.mids() {
+                    values[mid] = 4.0 * corners[a] * corners[b];
+                    [a, b].into_iter().for_each(|corner| values[corner] -= 0.5 * values[mid]);
+                }
+            }
+            Q9 => {
+                let [along, across] = at.map(|s| [0, 1, 2].map(|place| quadratic(s, place)[0]));
+                let places = values.iter_mut().zip(&SIDES);
+                places.for_each(|(value, &[a, b])| *value = along[a] * across[b]);
             }
             _ => values = self.functions(at).map(|[value, _, _]| value),
         }
@@ -226,6 +240,7 @@ fn linear(s: f64, node: usize) -> [f64; 2] {
 }
 
 /// A quadratic function of a line with its derivative.
+#[inline]
 fn quadratic(s: f64, node: usize) -> [f64; 2] {
     match node {
         0 => [0.5 * s * (s - 1.0), s - 0.5],
