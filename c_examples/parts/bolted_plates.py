@@ -5,7 +5,8 @@
 A quarter of a bolt M10 with head and nut and of two round plates, three contact zones with friction 0.2, and a
 section through the bolt whose shortening is one more unknown: its load is the pretension, then it is locked. The
 shortening beside the resiliences of VDI 2230 (2003); what the bolt takes of a pull beside its head lies between nothing and
-the load factor there for a pull under its head. Once the plates are apart the bolt carries all of it. mm, N, MPa.
+the load factor there for a pull under its head, and with it follows the load at which the plates open. Once they are apart the
+bolt carries all of it. mm, N, MPa.
 """
 
 import numpy as np
@@ -72,7 +73,7 @@ def level(height, low=0.0, high=PLATE):
     return test
 
 
-def parts(cells=3, pulls=(2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 22000.0, 24000.0)):
+def parts(cells=3, pulls=(2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 20000.0, 21000.0, 22000.0, 24000.0)):
     """The assembly to be tightened, and a function of the shortening that makes the locked one, with its loads."""
     mesh = bodies(cells)
     zones = {"head": Zone(("upper bolt", level(THICK, SHANK, HEAD)), ("upper plate", level(THICK)), MU),
@@ -129,10 +130,11 @@ def main():
          "equilibrium")
     told("shortening, mm", u[-1], PRETENSION * (bolt + plates), 0.1, "VDI 2230, resiliences")
     model = locked(u[-1])
-    forces = []
+    forces, pressed = [], []
     for pull, (result, _) in zip((0.0, *pulls), model.solve(K, result.d[:, 1:])):
         forces.append(force(model, result, "head"))
         clamped = force(model, result, "plates")
+        pressed.append(clamped)
         report = result.report
         print(f"pull {pull:6.0f} N: bolt {forces[-1]:8.1f}, plates pressed by {clamped:8.1f}; "
               f"{report.pairs_open} pairs open, {report.factorisations} systems")
@@ -142,6 +144,11 @@ def main():
     print(f"the bolt takes {taken:.3f} of a pull, {taken / most:.2f} of that under its head in VDI 2230, {most:.3f}")
     if not 0 < taken < most:
         raise SystemExit("a pull beside the head is taken by the plates in part")
+    # Plates part from the outside in, and the force ratio grows before they are apart.
+    last = max(k for k, clamped in enumerate(pressed) if clamped > 0)
+    at, falls = (0.0, *pulls)[last - 1:last + 1], pressed[last - 1] - pressed[last]
+    told("opening load, N", at[1] + pressed[last] * (at[1] - at[0]) / falls, PRETENSION / (1 - taken), 0.02,
+         "VDI 2230, pretension / (1 - force ratio)")
     told("bolt at the last pull, N", forces[-1], pulls[-1], 1e-6, "statics: the plates are apart")
     model.write("bolted_plates")
 

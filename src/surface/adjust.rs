@@ -4,11 +4,11 @@
 //! the two sides do not meet. Nodes are moved by `S dx = -g`, `S` the slave's weights of all rows, and of all solutions by the
 //! least: `dx = Sᵀ (S Sᵀ)⁻¹ (-g)`. As the rows of the moved nodes differ in second order alone, once is enough.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use super::pairs::{SurfacePair, SurfacePairs, Weight};
+use super::pairs::{SurfacePair, SurfacePairs, Weight, without_rounding};
 use super::watch::Watch;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, index};
 use crate::linalg::conjugate_gradients::conjugate_gradients;
 use crate::linalg::vector3::{Vector3, vector};
 use crate::monitor::Monitor;
@@ -55,13 +55,32 @@ impl Weights {
     }
 }
 
+/// Where a master moves too, as in zones that are joined in a row, its slave misses it.
+fn masters_stay(pairs: &[&SurfacePair], dim: usize, moves: &[(usize, f64)]) -> Result<(), Error> {
+    let most = moves.iter().map(|(_, moved)| moved.abs()).fold(0.0, f64::max);
+    let seen = moves.iter().filter(|(_, moved)| without_rounding(*moved, most) != 0.0);
+    let moving: HashSet<usize> = seen.map(|(entry, _)| entry / dim).collect();
+    let masters = pairs.iter().flat_map(|pair| &pair.masters);
+    match masters.map(|(node, _)| *node).find(|node| moving.contains(node)) {
+        None => Ok(()),
+        Some(node) => {
+            let message = format!(
+                "node {} would move, and slave nodes onto it: adjust zone by zone, and pair again between them",
+                index(node)
+            );
+            Err(Error::invalid(Argument::Coordinates, message))
+        }
+    }
+}
+
 impl SurfacePairs {
     /// Moves slave nodes so that the two points of each pair meet, of pairs whose points are no further apart than
     /// `within`: along a plane of symmetry alone if they stand on one; towards an obstacle by the gap. `coordinates` are
     /// those of all nodes that were paired. Assemble the matrix with the moved nodes, and pair again.
     ///
     /// # Errors
-    /// [`Argument::Settings`]: `within` is negative; [`Argument::Coordinates`]: too few; [`Error::Stopped`]: as in the pairing.
+    /// [`Argument::Settings`]: `within` is negative; [`Argument::Coordinates`]: too few, or those of a node that moves and that
+    /// another one moves to; [`Error::Stopped`]: as in the pairing.
     pub fn adjust(
         &self,
         within: f64,
@@ -94,6 +113,7 @@ impl SurfacePairs {
         let all = self.pairs.iter().map(|pair| (pair, apart(pair)));
         let (pairs, apart): (Vec<&SurfacePair>, Vec<Vector3>) =
             all.filter(|(_, apart)| apart.norm() <= within).unzip();
+        let mut moves: Vec<(usize, f64)> = Vec::new();
         for axis in 0..dim {
             let weights = Weights::new(&pairs, axis);
             let free = |(pair, apart): (&&SurfacePair, &Vector3)| {
@@ -102,10 +122,11 @@ impl SurfacePairs {
             let wanted: Vec<f64> = pairs.iter().zip(&apart).map(free).collect();
             let times = |y: &[f64]| weights.times(&weights.transpose_times(y));
             let shares = conjugate_gradients(times, &wanted, || watch.goes_on())?;
-            for (node, moved) in weights.nodes.iter().zip(weights.transpose_times(&shares)) {
-                coordinates[dim * node + axis] += moved;
-            }
+            let moved = weights.transpose_times(&shares);
+            moves.extend(weights.nodes.iter().map(|node| dim * node + axis).zip(moved));
         }
+        masters_stay(&pairs, dim, &moves)?;
+        moves.into_iter().for_each(|(entry, moved)| coordinates[entry] += moved);
         Ok(())
     }
 }

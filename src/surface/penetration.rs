@@ -5,7 +5,7 @@
 //! and the same point of the master was not behind it before. What was, as layers behind each other are and surfaces that overlap
 //! from the beginning, is left to the pairs.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::exact_shape::Obstacle;
@@ -15,6 +15,7 @@ use super::node_to_surface::is_on;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::Local;
+use super::sweep::Hull;
 use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{Vector3, unit};
@@ -67,6 +68,13 @@ pub struct Penetration {
     pub master: Option<usize>,
 }
 
+/// What pairs hold, and the slave faces that they do not hold wholly.
+struct Held {
+    nodes: HashSet<usize>,
+    uncovered: HashSet<usize>,
+    asked: Vec<usize>,
+}
+
 /// A point of a slave face with what decides about it.
 struct Asked {
     at: Local,
@@ -116,6 +124,7 @@ impl KeptSurfaces {
     }
 
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
+    /// Faces that are covered, and all of whose nodes have pairs, are left to these.
     /// `pairs` are those of these surfaces.
     ///
     /// # Errors
@@ -133,13 +142,14 @@ impl KeptSurfaces {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
         let watch = &mut Watch::new(monitor);
+        let held = &self.held(pairs);
         let slaves = self.sides("slave", &moved, &self.slave)?;
         match &self.opposite {
             Opposite::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
-                self.deepest(pairs, &slaves, watch, |[before, face], asked| {
+                self.deepest(held, &slaves, watch, |[before, face], asked| {
                     let depths = [before, face].map(|face| depth(face.position(asked.at)));
                     (depths[0] <= asked.least).then_some((depths[1], None))
                 })
@@ -153,7 +163,10 @@ impl KeptSurfaces {
                         self.side("obstacle", rigid, &faces)?,
                     ],
                 };
-                self.through_faces(pairs, [&slaves, &masters], watch)
+                match held.asked.is_empty() {
+                    true => Ok(Penetration::default()),
+                    false => self.through_faces(held, [&slaves, &masters], watch),
+                }
             }
         }
     }
@@ -177,19 +190,36 @@ impl KeptSurfaces {
         Ok([self.side(name, &self.coordinates, faces)?, self.side(name, moved, faces)?])
     }
 
+    fn held(&self, pairs: &SurfacePairs) -> Held {
+        let slaves = pairs.pairs.iter().map(|pair| pair.slave);
+        let nodes: HashSet<usize> =
+            slaves.chain(pairs.report.folded.iter().map(|fold| fold.node)).collect();
+        let uncovered: HashSet<usize> = pairs.report.uncovered_faces.iter().copied().collect();
+        let [start, places] = &self.slave;
+        let is_held = |place: &usize| nodes.contains(&self.nodes[*place]);
+        let of_pairs = |at: &usize| {
+            !uncovered.contains(at) && places[start[*at]..start[at + 1]].iter().all(is_held)
+        };
+        let asked = (0..start.len() - 1).filter(|at| !of_pairs(at)).collect();
+        Held { nodes, uncovered, asked }
+    }
+
     fn through_faces(
         &self,
-        pairs: &SurfacePairs,
+        held: &Held,
         [slaves, [before, after]]: [&[Side<'_>; 2]; 2],
         watch: &mut Watch<'_, '_>,
     ) -> Result<Penetration, Error> {
-        let (own, opposite) =
-            (SearchFaces::new(&slaves[1], watch)?, SearchFaces::new(after, watch)?);
-        let bounds = [own.tree.bounds(), opposite.tree.bounds()].into_iter().flatten();
+        let opposite = SearchFaces::new(after, watch)?;
+        let around = |side: &Side<'_>| {
+            let faces = (0..side.count()).map(|at| Hull::of(&side.face(at)).bounds());
+            faces.reduce(|a, b| a.with(&b))
+        };
+        let bounds = [around(&slaves[1]), opposite.tree.bounds()].into_iter().flatten();
         let span = bounds.reduce(|a, b| a.with(&b)).map_or(0.0, |all| all.diagonal());
         let reach = Reach { overlap: span, open: 0.0, layer: span };
         let mut candidates = Candidates::new(opposite, reach, span);
-        self.deepest(pairs, slaves, watch, |[first, face], asked| {
+        self.deepest(held, slaves, watch, |[first, face], asked| {
             let (x, origin) = (face.position(asked.at), first.position(asked.at));
             let plane = Plane::new(self.dim, x, asked.normal);
             let behind = candidates.of_point(x, asked.normal).iter().filter_map(|&at| {
@@ -204,27 +234,25 @@ impl KeptSurfaces {
         })
     }
 
-    /// The deepest of all points, whose depths `through` tells with the master face.
+    /// The deepest of all points of the faces that are asked, whose depths `through` tells with the master face.
     fn deepest(
         &self,
-        pairs: &SurfacePairs,
+        held: &Held,
         [before, after]: &[Side<'_>; 2],
         watch: &mut Watch<'_, '_>,
         mut through: impl FnMut([&Face<'_>; 2], &Asked) -> Option<(f64, Option<usize>)>,
     ) -> Result<Penetration, Error> {
-        let mut held: BTreeSet<usize> = pairs.pairs.iter().map(|pair| pair.slave).collect();
-        held.extend(pairs.report.folded.iter().map(|fold| fold.node));
-        let uncovered: HashSet<usize> = pairs.report.uncovered_faces.iter().copied().collect();
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
-        for at in 0..after.count() {
+        for &at in &held.asked {
             watch.goes_on()?;
             let faces = [before.face(at), after.face(at)];
             let size = faces[0].size();
             let nodes = || faces[0].nodes.iter().map(|&place| self.nodes[place]);
-            let face_is_held = !uncovered.contains(&at) && nodes().any(|node| held.contains(&node));
+            let covered = !held.uncovered.contains(&at);
+            let face_is_held = covered && nodes().any(|node| held.nodes.contains(&node));
             let places = faces[0].kind.places().iter().copied().zip(nodes().map(Some));
             for (local, node) in places.chain([(faces[0].kind.centre(), None)]) {
-                let is_held = node.map_or(face_is_held, |node| held.contains(&node));
+                let is_held = node.map_or(face_is_held, |node| held.nodes.contains(&node));
                 let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
                 let normal = unit(faces[0].outward(local)).unwrap_or_default();
                 let asked = Asked { at: local, normal, least };

@@ -3,8 +3,8 @@
 //!
 //! With dual functions `ψ = D M⁻¹ N` (Wohlmuth 2000), `∫ ψ_j N_i = δ_ij D_j`, the mortar weights
 //! `∫ ψ_j Nᵐ_k / D_j` are `X_jk`. `M` of a part that is thin is as good as singular, so it is never formed:
-//! monomials, centred on the covered part and scaled to it, are made orthonormal there, and the
-//! polynomials that result are evaluated at the face's nodes, where they are the coefficients.
+//! polynomials of few terms, centred on the covered part and scaled to it, are made orthonormal there, and those
+//! that result are evaluated at the face's nodes, where they are the coefficients.
 
 use std::ops::Range;
 
@@ -19,8 +19,11 @@ const DEPENDENT: f64 = 1e-10;
 /// Passes of orthogonalisation: the second removes what rounding left of the first.
 const PASSES: usize = 2;
 
-/// A monomial that keeps this share of its norm has lost no digit in the first pass.
-const KEPT: f64 = 0.5;
+/// A function that keeps this share of its norm has lost nothing in the first pass.
+const KEPT: f64 = 0.9;
+
+/// The mean of the squares of -1 to 1: without it a square is orthogonal to what is constant there.
+const MEAN_SQUARE: f64 = 1.0 / 3.0;
 
 /// Sums that run beside each other: a processor adds several numbers at a time.
 const LANES: usize = 8;
@@ -128,7 +131,8 @@ impl Polynomials {
         let [s, t] = centre_and_scale(points);
         for [i, j] in kind.exponents() {
             let monomial = |at: Local| {
-                let power = |x: f64, exponent: i32| [1.0, x, x * x][exponent as usize];
+                let power =
+                    |x: f64, exponent: i32| [1.0, x, x * x - MEAN_SQUARE][exponent as usize];
                 power((at[0] - s.0) / s.1, *i) * power((at[1] - t.0) / t.1, *j)
             };
             self.next.clear();

@@ -600,6 +600,23 @@ static int32_t obstacle(struct world *w)
     return status;
 }
 
+/* Nodes moved onto the other side, and what has passed through it. */
+static int32_t moved_surfaces(struct world *w)
+{
+    const struct brick_mesh *mesh = w->mesh;
+    signorini_surface_pairs *contact = NULL;
+    signorini_penetration found = {.struct_size = sizeof found};
+    int32_t status = signorini_surface_pair(3, mesh->nodes, mesh->at[0], &w->bottom, &w->top, NULL, &contact);
+    for (int64_t i = 0; i < mesh->dofs; i++) {
+        w->d[i] = mesh->at[0][i];
+        w->u[i] = 0;
+    }
+    if (!status) status = signorini_surface_adjust(contact, 1, w->d);
+    if (!status) status = signorini_surface_penetration(contact, w->u, &found);
+    signorini_surface_free(contact);
+    return status;
+}
+
 /* A surface on an obstacle as a zone with a law, and its table. */
 static int32_t joined_zones(struct world *w)
 {
@@ -672,6 +689,7 @@ static const struct scenario scenarios[] = {
     {"node-to-surface, .vtu", node_surfaces, 0, 0},
     {"obstacle", obstacle, 0, 0},
     {"joined zones, table", joined_zones, 0, 0},
+    {"moved surfaces", moved_surfaces, 0, 0},
     {"new thread: plane, auto", plane_auto, 0, NEW_THREAD},
     {"new thread: space, no friction", space_smooth, 0, NEW_THREAD},
     {"new thread: LCP", lcp, 0, NEW_THREAD},

@@ -88,6 +88,22 @@ static void check_zones(int32_t base)
     const signorini_zone written = {.struct_size = sizeof written, .contact = joined, .d = d, .F = F, .state = state};
     CHECK_STATUS(signorini_mesh_write("zones.vtu", &mesh, NULL, 1, &written, 0, NULL), 0);
     CHECK(remove("zones.vtu") == 0);
+
+    /* What has passed through is asked of each zone, and so are moves where B is slave and master. */
+    signorini_penetration through = {.struct_size = sizeof through};
+    const double still[12] = {0};
+    double moved[12];
+    memcpy(moved, x, sizeof moved);
+    CHECK_STATUS(signorini_surface_penetration(joined, still, &through), -1);
+    CHECK_TEXT(signorini_last_error(), "contact is joined of zones: ask the pairs of each zone");
+    CHECK_STATUS(signorini_surface_penetration(zone[1], still, &through), 0);
+    CHECK_STATUS(signorini_surface_adjust(joined, 1, moved), -3);
+    CHECK_TEXT(signorini_last_error(), "would move, and slave nodes onto it: adjust zone by zone, and pair again");
+    CHECK(memcmp(moved, x, sizeof moved) == 0);
+    for (int i = 0; i < 2; i++)
+        CHECK_STATUS(signorini_surface_adjust(zone[i], 1, moved), 0);
+    for (int i = 0; i < 12; i++)
+        CHECK_NEAR(moved[i], i % 2 == 0 ? x[i] : i < 4 ? 0.1 : 0);
     signorini_surface_free(joined);
 
     /* What is refused. */

@@ -55,7 +55,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     begin(data, size);
     int64_t handle = 99;
     problem p = {.dim = (int32_t)between(2, 3), .pairs = between(1, 2)};
-    p.law = (int32_t)between(0, p.dim == 3 ? 5 : 3);
+    p.law = a_law(p.dim);
     p.n = p.dim * p.pairs;
     p.ld = p.n;
     const int64_t nodes = between(p.pairs, 5), host = p.dim * nodes;
@@ -66,7 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const int64_t made = handle;
 
     const double *f = numbers(host), *gap = numbers(p.pairs), *friction;
-    friction = friction_numbers(p.law, p.pairs);
+    friction = friction_numbers(p.dim, p.law, p.pairs);
     const double *slip0 = input((size_t)(p.n - p.pairs), sizeof *slip0);
     const double *presc = input((size_t)p.dim, sizeof *presc);
     const integer *law = number_of(p.law), *method = number_of(rarely(4) ? between(0, 6) : 0);

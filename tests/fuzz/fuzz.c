@@ -28,7 +28,7 @@ typedef struct slot {
 static slot slots[SLOTS];
 static int used;
 static const uint8_t *at, *end;
-static int is_sane;
+static int is_sane, kind_of_law;
 
 void complain(const char *format, ...)
 {
@@ -114,7 +114,9 @@ void begin(const uint8_t *data, size_t size)
     at = data;
     end = data + size;
     used = 0;
-    is_sane = byte() % 4 != 3;
+    const uint8_t first = byte();
+    is_sane = first % 4 != 3;
+    kind_of_law = first / 4 % 8;
 }
 
 static uint8_t *take(size_t count, size_t bytes, int written)
@@ -240,7 +242,8 @@ double *matrix(int64_t n, int64_t ld, int *definite)
 int per_pair(int32_t law)
 {
     switch (law) {
-    case SIGNORINI_LAW_FRICTIONLESS: return 0;
+    case SIGNORINI_LAW_FRICTIONLESS:
+    case SIGNORINI_LAW_TIED: return 0;
     case SIGNORINI_LAW_COULOMB:
     case SIGNORINI_LAW_TRESCA: return 1;
     case SIGNORINI_LAW_BY_PAIR: return 4;
@@ -248,17 +251,39 @@ int per_pair(int32_t law)
     }
 }
 
-double *friction_numbers(int32_t law, int64_t pairs)
+int32_t a_law(int32_t dim)
+{
+    const int32_t law = (int32_t)between(0, dim == 3 ? 5 : 3);
+    /* Inputs that were kept before these laws were there keep theirs. */
+    if (kind_of_law == 5) return SIGNORINI_LAW_BY_PAIR;
+    return kind_of_law == 6 ? SIGNORINI_LAW_TIED : law;
+}
+
+/* Makes three numbers such as a law has them, zero behind its own. */
+static void obey(int32_t law, double *of)
+{
+    const int count = per_pair(law);
+    for (int i = 0; i < 3; i++) of[i] = i < count ? fabs(of[i]) / 4 : 0;
+    if (law == SIGNORINI_LAW_COHESIVE) of[1] += of[0] * of[2];
+    else if (count == 3) { of[0] += 0.125; of[1] += 0.125; }
+}
+
+double *friction_numbers(int32_t dim, int32_t law, int64_t pairs)
 {
     const int count = per_pair(law);
     if (count == 0 || pairs <= 0) return NULL;
     double *friction = numbers(count * pairs);
-    if (!sane()) return friction;
-    for (int64_t i = 0; i < count * pairs; i++) friction[i] = fabs(friction[i]) / 4;
-    for (int64_t i = 0; count == 3 && i < pairs; i++) {
-        double *of = friction + 3 * i;
-        if (law == SIGNORINI_LAW_COHESIVE) of[1] += of[0] * of[2];
-        if (law != SIGNORINI_LAW_COHESIVE) { of[0] += 0.125; of[1] += 0.125; }
+    for (int64_t i = 0; i < pairs; i++) {
+        double *of = friction + count * i;
+        if (law == SIGNORINI_LAW_BY_PAIR) {
+            const int64_t own = between(0, dim == 3 ? 6 : 4);
+            of[0] = own == (dim == 3 ? 6 : 4) ? SIGNORINI_LAW_TIED : (double)own;
+            if (sane()) obey((int32_t)of[0], of + 1);
+        } else if (sane() && count == 3) {
+            obey(law, of);
+        } else if (sane()) {
+            of[0] = fabs(of[0]) / 4;
+        }
     }
     return friction;
 }
@@ -266,7 +291,7 @@ double *friction_numbers(int32_t law, int64_t pairs)
 problem a_problem(void)
 {
     problem p = {.dim = (int32_t)between(2, 3), .pairs = between(0, 4)};
-    p.law = (int32_t)between(0, p.dim == 3 ? 5 : 3);
+    p.law = a_law(p.dim);
     p.n = p.dim * p.pairs;
     p.ld = (p.n > 1 ? p.n : 1) + (rarely(4) ? 2 : 0);
     p.K = matrix(p.n, p.ld, &p.definite);
@@ -276,7 +301,7 @@ problem a_problem(void)
         if (rarely(8)) p.gap[i] = INFINITY;
         else if (rarely(3)) p.gap[i] = 0;
     }
-    p.friction = friction_numbers(p.law, p.pairs);
+    p.friction = friction_numbers(p.dim, p.law, p.pairs);
     p.slip0 = rarely(2) ? numbers(p.n - p.pairs) : NULL;
     return p;
 }

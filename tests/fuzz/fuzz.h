@@ -92,9 +92,10 @@ typedef struct problem {
 double *matrix(int64_t n, int64_t ld, int *definite);
 problem a_problem(void);
 
-/* Numbers of a law for each pair. */
+/* A law, and numbers of a law for each pair. */
+int32_t a_law(int32_t dim);
 int per_pair(int32_t law);
-double *friction_numbers(int32_t law, int64_t pairs);
+double *friction_numbers(int32_t dim, int32_t law, int64_t pairs);
 
 signorini_settings *a_settings(void);
 double tolerance_of(const signorini_settings *settings);

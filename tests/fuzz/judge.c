@@ -54,12 +54,25 @@ static quad length(const quad *v, int64_t n)
     return root(sum);
 }
 
+/* The law of a pair. */
+static int32_t law_of(const problem *p, int64_t pair)
+{
+    return p->law == SIGNORINI_LAW_BY_PAIR ? (int32_t)p->friction[4 * pair] : p->law;
+}
+
+/* Its numbers. */
+static const double *numbers_of(const problem *p, int64_t pair)
+{
+    if (!p->friction) return NULL;
+    return p->friction + per_pair(p->law) * pair + (p->law == SIGNORINI_LAW_BY_PAIR);
+}
+
 /* Slope, offset and tension of the bound on |F_t| of a pair: |F_t| <= offset - slope min(F_n, tension). */
 static void bound_of(const problem *p, int64_t pair, double *slope, double *offset, double *tension)
 {
     *slope = *offset = *tension = 0;
-    const double *numbers = p->friction ? p->friction + per_pair(p->law) * pair : NULL;
-    switch (p->law) {
+    const double *numbers = numbers_of(p, pair);
+    switch (law_of(p, pair)) {
     case SIGNORINI_LAW_COULOMB: *slope = numbers[0]; break;
     case SIGNORINI_LAW_TRESCA: *offset = numbers[0]; break;
     case SIGNORINI_LAW_COHESIVE:
@@ -76,23 +89,52 @@ static int is_ellipse(int32_t law)
     return law == SIGNORINI_LAW_ORTHOTROPIC || law == SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR;
 }
 
+static int has(const problem *p, int (*is)(int32_t law))
+{
+    for (int64_t pair = 0; pair < p->pairs; pair++)
+        if (is(law_of(p, pair))) return 1;
+    return 0;
+}
+
+/* Laws whose forces may work against a motion without end. */
+static int resists(int32_t law)
+{
+    return is_ellipse(law) || law == SIGNORINI_LAW_TRESCA || law == SIGNORINI_LAW_COHESIVE;
+}
+
+static int is_free(const problem *p, int64_t pair)
+{
+    return isinf(p->gap ? p->gap[pair] : 0);
+}
+
+/* A tied pair carries any force; a free one none. */
+static void judge_tied(const problem *p, int64_t pair, const double *part, const int32_t *state)
+{
+    for (int c = 0; c < p->dim; c++) REQUIRE(isfinite(part[c]) && (!is_free(p, pair) || part[c] == 0));
+    if (state) REQUIRE(state[pair] >= SIGNORINI_STATE_OPEN && state[pair] <= SIGNORINI_STATE_STICK);
+}
+
 void judge_law(const problem *p, const double *F, const int32_t *state)
 {
     for (int64_t pair = 0; pair < p->pairs; pair++) {
         const double *part = F + p->dim * pair;
+        if (law_of(p, pair) == SIGNORINI_LAW_TIED) {
+            judge_tied(p, pair, part, state);
+            continue;
+        }
         double slope, offset, tension;
         bound_of(p, pair, &slope, &offset, &tension);
         for (int c = 0; c < p->dim; c++) REQUIRE(isfinite(part[c]));
         REQUIRE(part[0] <= tension);
-        REQUIRE(!isinf(p->gap ? p->gap[pair] : 0) || part[0] == tension);
+        REQUIRE(!is_free(p, pair) || part[0] == tension);
         if (state) {
             REQUIRE(state[pair] >= SIGNORINI_STATE_OPEN && state[pair] <= SIGNORINI_STATE_STICK);
             REQUIRE(state[pair] != SIGNORINI_STATE_OPEN || part[0] == tension);
         }
         const quad t[2] = {part[1], p->dim == 3 ? part[2] : 0};
         const quad pressure = tension - (quad)part[0] - tension;
-        const double *of = p->friction ? p->friction + 3 * pair : NULL;
-        if (is_ellipse(p->law)) {
+        const double *of = numbers_of(p, pair);
+        if (is_ellipse(law_of(p, pair))) {
             /* Ellipses so flat that their form overflows are not judged. */
             if (fmin(of[0], of[1]) < 1e-100 || fmax(of[0], of[1]) > 1e100 || pressure > 1e150) continue;
             const quad c = cos(of[2]), s = sin(of[2]);
@@ -148,6 +190,17 @@ static quad residual(const problem *p, const double *d, const quad *force, const
         /* A stiffness that a condensation has rounded to below zero is no unit: the pair's stands for it. */
         const quad own_t = tangential(p, pair), own_n = p->K[i + p->ld * i];
         const quad k_t = own_t > 0 ? own_t : own_n, k_n = own_n > 0 ? own_n : own_t;
+        if (law_of(p, pair) == SIGNORINI_LAW_TIED) {
+            for (int c = 0; c < p->dim; c++) {
+                const double from = c == 0 ? p->gap[pair] : p->slip0 ? p->slip0[(p->dim - 1) * pair + c - 1] : 0;
+                const quad k = c == 0 ? k_n : k_t, apart = k * ((quad)d[i + c] - from);
+                const quad off = is_free(p, pair) ? force[i + c] : apart;
+                const quad change = parts[i + c] + k * magnitude(d[i + c]);
+                sum += off * off;
+                error += change * change;
+            }
+            continue;
+        }
         quad e = force[i] - tension, change = parts[i];
         if (!isinf(p->gap[pair])) e = larger(e, k_n * ((quad)d[i] - p->gap[pair]));
         sum += e * e;
@@ -194,7 +247,7 @@ void judge_solution(const problem *p, double tolerance, const double *d, const d
             complain("|K d - f - F| is %g, reported %g, rounding %g", (double)most,
                      report->equilibrium, (double)allowed);
     }
-    if (is_ellipse(p->law)) return;
+    if (has(p, is_ellipse)) return;
     const quad left = residual(p, d, force, parts, &rounding);
     /* The certificate forgives 16 roundings of the rows of bodies that move as far as gaps and slips tell. */
     const double roundings = sane() && p->definite ? 2 : 20;
@@ -217,8 +270,7 @@ void judge_motion(const problem *p, const double *r)
         size = larger(size, root(own > 0 ? own : stiffest) * magnitude(r[i]));
     }
     REQUIRE(most == 1);
-    if (!is_ellipse(p->law) && p->law != SIGNORINI_LAW_TRESCA && p->law != SIGNORINI_LAW_COHESIVE)
-        REQUIRE(work > 0);
+    if (!has(p, resists)) REQUIRE(work > 0);
     /* Stiffnesses some 1e16 apart in one matrix are beside each other as rounding is: not judged. */
     for (int64_t i = 0; i < p->n; i++) {
         if (!sane()) break;

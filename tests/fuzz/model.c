@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const double *K_B = two ? matrix(p.n, p.ld, &definite) : NULL;
     const int64_t cases = between(1, 2), host = (two + 1) * p.n;
     const double *f = numbers(host * cases), *gap = numbers(p.pairs * cases);
-    const double *friction = friction_numbers(p.law, p.pairs * cases);
+    const double *friction = friction_numbers(p.dim, p.law, p.pairs * cases);
     const double *slip0 = rarely(2) ? numbers((p.n - p.pairs) * cases) : NULL;
     const signorini_settings *settings = a_settings();
     signorini_model *model = NULL;

@@ -140,8 +140,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const signorini_pairs *pairs = some_pairs(n, base, dim, count);
     const double *f = numbers(n), *prescribed = rarely(2) ? numbers(n_fixed) : NULL;
     const double *gap = numbers(count);
-    const int32_t law = (int32_t)between(0, dim == 3 ? 5 : 3);
-    const double *friction = friction_numbers(law, count);
+    const int32_t law = a_law(dim);
+    const double *friction = friction_numbers(dim, law, count);
     const signorini_settings *settings = a_settings();
     const int within = rarely(4);
     signorini_model *model = NULL;

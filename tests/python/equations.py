@@ -122,6 +122,43 @@ class Decks(unittest.TestCase):
         found = self.read(deck, number=lambda node, direction: 10 * node + direction)
         self.assertEqual(found[0], (21, [51, 52], [0.5, -2.0]))
 
+    def test_types_of_mpc(self):
+        """Motions that each type allows obey its equations, and one that it forbids does not: rigid motions, those along
+        a line, and those that nothing turns."""
+        places = {1: [0.5, 1.5, -0.5], 2: [0, 1, -1], 3: [2, 3, 1], 4: [0, 0, 0]}
+        deck = "*NODE\n" + "".join(f"{node}, {x}, {y}, {z}\n" for node, (x, y, z) in places.items())
+
+        def number(node, direction):
+            return 6 * (node - 1) + direction - 1
+
+        def motion(shift, turn):
+            """Of all nodes: displacements and rotations."""
+            moved = [np.add(shift, np.cross(turn, place)) for place in places.values()]
+            return np.concatenate([np.append(u, turn) for u in moved])
+
+        def off(line, u):
+            found = self.read(f"{deck}*MPC\n{line}\n", number=number)
+            return len(found), max(abs(u[dof] - np.dot(u[dofs], factors)) for dof, dofs, factors in found)
+        still, rigid = motion([0.3, -0.2, 0.5], [0, 0, 0]), motion([0.3, -0.2, 0.5], [0.1, 0.7, -0.4])
+        along, across = np.zeros(24), np.zeros(24)
+        along[:3], across[:3] = [1, 1, 1], [1, -1, 0]  # node 1 along and across the line from 2 to 3
+        for line, count, allowed, forbidden in (
+                ("BEAM, 1, 2", 6, rigid, along), ("Link,1,2,", 1, rigid + across, along),
+                ("PIN,1,2", 3, still, rigid), ("TIE,1,2", 6, still, rigid),
+                ("SLIDER,1,2,3", 2, rigid + along, across), ("LINEAR,1,2,3", 6, rigid, along)):
+            with self.subTest(line):
+                self.assertEqual(off(line, allowed)[0], count)
+                self.assertLess(off(line, allowed)[1], 1e-15)
+                self.assertGreater(off(line, forbidden)[1], 0.1)
+        self.assertEqual(self.read("*MPC\nTIE,1,2\n"), [(0, [3], [1.0]), (1, [4], [1.0]), (2, [5], [1.0])])
+        for line, part in (("ELBOW,1,2", "the type ELBOW is not read: of .MPC those that are linear are, BEAM, LINEAR"),
+                           ("PIN,1,2,3", "PIN has 3 nodes, it must have 2"), ("PIN,SET,2", "no type with numbers"),
+                           ("LINK,1,9", "node 9 has no place"), ("SLIDER,4,2,3", "node 4 is 1.41 off the line"),
+                           ("LINK,1,1", "nodes 1 and 1 are at one place"),
+                           ("BEAM,1,2", "BEAM needs the rotations of node 2")):
+            with self.assertRaisesRegex(ValueError, part):
+                self.read(f"{deck}*MPC\n{line}\n")
+
     def test_what_is_wrong_is_named(self):
         for deck, part in (("*EQUATION\nx\n", "line 2: x: this is no number of terms"),
                            ("*EQUATION\n2\nSET,1,1.,3,1,1.\n", "line 3: SET,1,1.,3,1,1."),
@@ -129,6 +166,7 @@ class Decks(unittest.TestCase):
                            ("*EQUATION\n2\n1,1,1.\n", "1 terms of the last equation are missing"),
                            ("*EQUATION\n1\n1,1,1.,2,1,1.\n", "line 3: the equation has more terms"),
                            ("*EQUATION\n1\n1,1,0.\n", "line 3: the coefficient of the first term is 0"),
+                           ("*MPC, MODE=NODE\n", "line 1: .* a card with MODE=NODE is not read"),
                            ("*EQUATION, REMOVE=ALL\n", "line 1: .* a card with REMOVE=ALL is not read")):
             with self.assertRaisesRegex(ValueError, part):
                 self.read(deck)

@@ -1,10 +1,10 @@
-//! Ties of curved sides whose meshes do not match, after their nodes were moved onto each other.
+//! Slave nodes moved onto the other side: ties of curved sides whose meshes do not match, and obstacles.
 
 use crate::common::solids::{Cells, Order, Point, Solid};
-use crate::surfaces::{pair, steps, unlimited};
+use crate::surfaces::{SHAPES, Shape, Sheet, flat, pair, steps, unlimited};
 use fastrand::Rng;
 use signorini::reduce::ContactPairs;
-use signorini::surface::{SurfacePairs, SurfaceSettings};
+use signorini::surface::{Faces, Obstacle, SurfacePairs, SurfaceSettings, pair_with_obstacle};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 const YOUNG: f64 = 1000.0;
@@ -105,6 +105,57 @@ fn a_rigid_turn_is_free_after_the_move() {
             let after = blocks.of_turn(upper_is_slave, 1);
             let context = format!("{order:?}, {upper_is_slave}: {before:e}, then {after:e}");
             assert!(after < bar && factor * after < before, "{context}");
+        }
+    }
+}
+
+/// A sheet, and where its nodes are after they were moved onto an obstacle.
+fn onto(sheet: &Sheet, obstacle: &Obstacle, within: f64) -> Vec<Point> {
+    let (start, nodes) = flat(&sheet.faces);
+    let (x, faces) = (sheet.nodes.concat(), Faces { start: &start, nodes: &nodes });
+    let settings = SurfaceSettings::default();
+    let found = pair_with_obstacle(3, &x, faces, obstacle, &settings, &mut unlimited()).unwrap();
+    let mut moved = x;
+    found.adjust(within, &mut moved, &mut unlimited()).unwrap();
+    moved.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()
+}
+
+/// A wave above a plane comes down along the plane's normal, faces of any kind; conjugate gradients leave 1e-12. What is
+/// further away than `within` stays where rows have one node.
+#[test]
+fn nodes_are_moved_onto_a_plane() {
+    let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
+    let rng = &mut Rng::with_seed(22);
+    for shape in SHAPES {
+        let sheet = Sheet::rectangle(shape, [3, 4], [[0.0, 1.0]; 2], (0.2, rng)).turned();
+        let sheet = sheet.mapped(|[x, y, _]| [x, y, 0.1 + 0.1 * x * y * y]);
+        let all = onto(&sheet, &plane, f64::INFINITY);
+        let near = onto(&sheet, &plane, 0.15);
+        for ((before, all), near) in sheet.nodes.iter().zip(all).zip(near) {
+            let [x, y, z] = *before;
+            let apart = all.iter().zip([x, y, 0.0]).map(|(a, b)| (a - b).abs());
+            assert!(apart.fold(0.0, f64::max) < 1e-12, "{shape:?}: {all:?}");
+            if matches!(shape, Shape::T3 | Shape::Q4) {
+                let level = if z <= 0.15 { 0.0 } else { z };
+                assert!((near[2] - level).abs() < 1e-12, "{shape:?}: {near:?}");
+            }
+        }
+    }
+}
+
+/// Onto a sphere nodes go along its radii.
+#[test]
+fn nodes_are_moved_onto_a_sphere() {
+    let sphere = Obstacle::Sphere { centre: [0.5, 0.5, -2.0], radius: 2.0, hollow: false };
+    let rng = &mut Rng::with_seed(23);
+    for shape in [Shape::T3, Shape::Q4] {
+        let sheet = Sheet::rectangle(shape, [3, 4], [[0.0, 1.0]; 2], (0.2, rng)).turned();
+        let sheet = sheet.mapped(|[x, y, _]| [x, y, 0.1]);
+        for (before, after) in sheet.nodes.iter().zip(onto(&sheet, &sphere, f64::INFINITY)) {
+            let from = |p: &Point| [p[0] - 0.5, p[1] - 0.5, p[2] + 2.0];
+            let size = from(before).iter().map(|x| x * x).sum::<f64>().sqrt();
+            let apart = from(&after).into_iter().zip(from(before)).map(|(a, b)| a - 2.0 * b / size);
+            assert!(apart.fold(0.0, |most: f64, a| most.max(a.abs())) < 1e-12, "{shape:?}");
         }
     }
 }

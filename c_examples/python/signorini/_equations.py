@@ -5,6 +5,7 @@ import ctypes
 import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
+from ._mpc import mpc
 from ._structures import EquationList, sized
 
 
@@ -94,53 +95,100 @@ def rigid_equations(dofs, coordinates, reference, motion):
     return found
 
 
-def read_equations(path, number=None):
-    """The equations of the *EQUATION cards of a deck of CalculiX or Abaqus; the first term of each is dependent.
+def read_equations(path, number=None, coordinates=None):
+    """The equations of the *EQUATION and *MPC cards of a deck of CalculiX or Abaqus.
 
-    number: a function of node and direction, both as in the deck, that gives a dof number; None:
-    3 * (node - 1) + direction - 1. Nodes are numbers: sets of nodes, and cards with REMOVE, are refused.
+    The first term of each *EQUATION is dependent, and the first node of each *MPC: BEAM, LINK, LINEAR, PIN, SLIDER and
+    TIE, for small motions. Other types are refused by name.
+    number: a function of node and direction, both as in the deck, that gives a dof number, or None if the node has no
+    such direction; None: 3 * (node - 1) + direction - 1, without rotations.  coordinates: a dict of nodes and their
+    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, and cards with options, are refused.
     """
-    number = number or (lambda node, direction: 3 * (node - 1) + direction - 1)
-    found, left, terms, reads = [], 0, [], False
+    cards = _Cards(path, number or _solid, coordinates)
     with open(path, encoding="utf-8", errors="replace") as deck:
         for place, line in enumerate(deck, 1):
-            words = [word.strip() for word in line.split(",")]
             if line.startswith("**") or not line.strip():
                 continue
-            if line.startswith("*"):
-                if left:
-                    raise ValueError(f"{path}, line {place}: {left} terms of the equation before are missing")
-                reads = words[0].upper().replace(" ", "") == "*EQUATION"
-                if reads and any(words[1:]):
-                    raise ValueError(f"{path}, line {place}: {line.strip()}: a card with {words[1]} is not read")
-            elif reads:
-                try:
-                    if not left:
-                        left, terms = int(words[0]), []
-                        if left < 1:
-                            raise ValueError
-                        continue
-                    words = words[:-1] if words[-1] == "" else words
-                    for node, direction, factor in zip(*[iter(words)] * 3, strict=True):
-                        terms.append((number(int(node), int(direction)), float(factor.upper().replace("D", "E"))))
-                        left -= 1
-                except ValueError:
-                    raise ValueError(f"{path}, line {place}: {line.strip()}: this is no number of terms, or not node, "
-                                     f"direction, coefficient of each") from None
-                if left < 0:
-                    raise ValueError(f"{path}, line {place}: the equation has more terms than was said")
-                if not left:
-                    found.append(_solved(terms, path, place))
-    if left:
-        raise ValueError(f"{path}: {left} terms of the last equation are missing")
-    return found
+            cards.line(place, line.strip(), [word.strip() for word in line.split(",")])
+    return cards.end()
 
 
-def _solved(terms, path, place):
-    (dependent, first), *others = terms
-    if not first:
-        raise ValueError(f"{path}, line {place}: the coefficient of the first term is 0")
-    return dependent, [dof for dof, _ in others], [-factor / first for _, factor in others]
+def _solid(node, direction):
+    return 3 * (node - 1) + direction - 1 if direction <= 3 else None
+
+
+class _Cards:
+    """Cards of a deck, as they are read."""
+
+    def __init__(self, path, number, coordinates):
+        self.path, self.number = path, number
+        self.places = {} if coordinates is None else coordinates
+        self.reads_places = coordinates is None
+        self.found, self.left, self.terms, self.card = [], 0, [], ""
+
+    def fail(self, place, what):
+        raise ValueError(f"{self.path}, line {place}: {what}") from None
+
+    def line(self, place, line, words):
+        if line.startswith("*"):
+            if self.left:
+                self.fail(place, f"{self.left} terms of the equation before are missing")
+            self.card = words[0].upper().replace(" ", "")
+            if self.card in ("*EQUATION", "*MPC") and any(words[1:]):
+                self.fail(place, f"{line}: a card with {words[1]} is not read")
+        elif self.card == "*EQUATION":
+            self.equation(place, line, words)
+        elif self.card == "*MPC":
+            self.mpc(place, line, words)
+        elif self.card == "*NODE" and self.reads_places:
+            self.node(place, line, words)
+
+    def node(self, place, line, words):
+        try:
+            self.places[int(words[0])] = [_real(word) if word else 0.0 for word in (words[1:4] + ["", ""])[:3]]
+        except ValueError:
+            self.fail(place, f"{line}: this is no node with its coordinates")
+
+    def mpc(self, place, line, words):
+        words = [word for word in words if word]
+        try:
+            nodes = [int(word) for word in words[1:]]
+        except ValueError:
+            self.fail(place, f"{line}: this is no type with numbers of nodes")
+        try:
+            self.found += mpc(words[0], nodes, self.places.__getitem__, self.number)
+        except ValueError as error:
+            self.fail(place, f"{line}: {error}")
+
+    def equation(self, place, line, words):
+        try:
+            if not self.left:
+                self.left, self.terms = int(words[0]), []
+                if self.left < 1:
+                    raise ValueError
+                return
+            words = words[:-1] if words[-1] == "" else words
+            for node, direction, factor in zip(*[iter(words)] * 3, strict=True):
+                self.terms.append((self.number(int(node), int(direction)), _real(factor)))
+                self.left -= 1
+        except ValueError:
+            self.fail(place, f"{line}: this is no number of terms, or not node, direction, coefficient of each")
+        if self.left < 0:
+            self.fail(place, "the equation has more terms than was said")
+        if not self.left:
+            (dependent, first), *others = self.terms
+            if not first:
+                self.fail(place, "the coefficient of the first term is 0")
+            self.found.append((dependent, [dof for dof, _ in others], [-factor / first for _, factor in others]))
+
+    def end(self):
+        if self.left:
+            raise ValueError(f"{self.path}: {self.left} terms of the last equation are missing")
+        return self.found
+
+
+def _real(word):
+    return float(word.upper().replace("D", "E"))
 
 
 def _nodes(name, values):
