@@ -10,7 +10,8 @@ use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::watched::GoesOn;
 use crate::workers::Workers;
 
-/// The values of a factor.
+/// The values of a factor, or the memory of one.
+#[derive(Default)]
 pub struct Values(Vec<f64>);
 
 /// The analysis of a pattern.
@@ -38,22 +39,22 @@ impl SparseCholesky {
         workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Values, Failure> {
-        Ok(Values(diagnosed(&self.0, &mut lower, workers, progress)?.values))
+        Ok(Values(diagnosed(&self.0, &mut lower, workers, progress)?.0))
     }
 
-    /// Factorises a matrix of the pattern; `None` if it is not definite but for rounding.
+    /// Factorises a matrix of the pattern in the memory of `values`, which are its factor then; `false` if it is not definite
+    /// but for rounding.
     pub fn factor(
         &self,
         lower: &Csc,
+        values: &mut Values,
         workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
-    ) -> Result<Option<Values>, Failure> {
-        match factorised((&self.0.structure, &self.0.schedule), lower, workers, progress) {
-            Ok(Numeric { values, weakest, .. }) => {
-                let definite = weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE);
-                Ok(definite.then_some(Values(values)))
-            }
-            Err(Unfinished::Pivot(_)) => Ok(None),
+    ) -> Result<bool, Failure> {
+        let parts = (&self.0.structure, &self.0.schedule);
+        match factorised(parts, lower, &mut values.0, workers, progress) {
+            Ok(Numeric { weakest, .. }) => Ok(weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE)),
+            Err(Unfinished::Pivot(_)) => Ok(false),
             Err(Unfinished::Failed(failure)) => Err(failure),
         }
     }

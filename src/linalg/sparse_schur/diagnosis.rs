@@ -13,22 +13,22 @@ use crate::linalg::vector::{norm_inf, normalise, sizes};
 use crate::linalg::watched::GoesOn;
 use crate::workers::Workers;
 
-/// Factorises `matrix`, which stays as it is; or says what motion of the eliminated rows nothing resists, and
+/// Factorises `matrix`, which stays as it is, to the values of the panels and the rest; or says what motion of the eliminated rows nothing resists, and
 /// leaves it with a larger diagonal.
 pub fn diagnosed(
     plan: &Plan,
     matrix: &mut Csc,
     workers: &dyn Workers,
     progress: &mut FactorProgress<'_>,
-) -> Result<Numeric, Failure> {
-    let structure = &plan.structure;
+) -> Result<(Vec<f64>, Numeric), Failure> {
+    let (structure, mut values) = (&plan.structure, Vec::new());
     let parts = (structure, &plan.schedule);
-    let (numeric, singular) = match factorised(parts, matrix, workers, progress) {
+    let (numeric, singular) = match factorised(parts, matrix, &mut values, workers, progress) {
         Ok(numeric) => (numeric, false),
         Err(Unfinished::Failed(failure)) => return Err(failure),
         Err(Unfinished::Pivot(_)) => {
             (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
-            match factorised(parts, matrix, workers, progress) {
+            match factorised(parts, matrix, &mut values, workers, progress) {
                 Ok(numeric) => (numeric, true),
                 Err(Unfinished::Failed(failure)) => return Err(failure),
                 Err(Unfinished::Pivot(place)) => {
@@ -41,14 +41,14 @@ pub fn diagnosed(
         && (singular || pivot < SUSPICIOUS_PIVOT)
     {
         let goes_on = &mut || progress(FactorStep::HasDone(1.0)).is_ok();
-        let Some(vector) = weakest_motion(structure, &numeric.values, place, goes_on) else {
+        let Some(vector) = weakest_motion(structure, &values, place, goes_on) else {
             return Err(Failure::Stopped);
         };
         if singular || resistance(matrix, &vector) <= NULL_VECTOR {
             return Err(Failure::NullVector(vector));
         }
     }
-    Ok(numeric)
+    Ok((values, numeric))
 }
 
 /// The motion of the eliminated rows that `A` resists least, its largest entry 1, by inverse iteration from the unit

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use super::entries::Entries;
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
-use super::graph::{filled, reserved};
+use super::graph::filled;
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
 use super::parallel::{Done, Parallel, Workspace, locked};
@@ -17,16 +17,14 @@ use super::schedule::Schedule;
 use super::schur_update;
 use super::structure::Structure;
 use crate::linalg::dense::mirror;
-use crate::linalg::sparse_matrix::Csc;
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 use crate::workers::Workers;
 
 /// Numbers that are cleared between two questions whether to go on: some milliseconds.
 const CLEARED: usize = 1 << 21;
 
-/// The results of a factorisation.
+/// The results of a factorisation beside the values of the panels.
 pub struct Numeric {
-    /// Values of the panels.
-    pub values: Vec<f64>,
     /// The Schur complement, column-major, both triangles.
     pub schur: Vec<f64>,
     /// The pivot that is smallest relative to the diagonal.
@@ -55,39 +53,45 @@ pub fn bytes(structure: &Structure, lower: &Csc, threads: usize) -> usize {
     numbers * size_of::<f64>() + Entries::bytes(structure, lower) + room
 }
 
-/// Computes everything.
+/// Computes everything; `values` become those of the panels, in the memory that they have.
 pub fn factorised(
     (structure, schedule): (&Structure, &Schedule),
     lower: &Csc,
+    values: &mut Vec<f64>,
     workers: &dyn Workers,
     progress: &mut FactorProgress<'_>,
 ) -> Result<Numeric, Unfinished> {
-    let kept = structure.kept();
-    let mut values = cleared(structure.stored(), progress)?;
-    let mut schur = cleared(kept * kept, progress)?;
+    let (kept, mut schur) = (structure.kept(), Vec::new());
+    clear(values, structure.stored(), progress)?;
+    clear(&mut schur, kept * kept, progress)?;
     progress(FactorStep::HasDone(0.0))?;
     let entries = &Entries::new(structure, lower, &mut schur)?;
     progress(FactorStep::HasDone(0.0))?;
     let done = &Done::default();
     let parallel = &mut Parallel::new(structure, (workers, progress), done, schedule.operations)?;
     let source = Source { structure, schedule, entries, done };
-    let below = subtrees(source, &mut values, parallel)?;
-    let above = above(source, &mut values, parallel)?;
-    schur_update::subtract(structure, &values, &mut schur, done, parallel)?;
+    let below = subtrees(source, values, parallel)?;
+    let above = above(source, values, parallel)?;
+    schur_update::subtract(structure, values, &mut schur, done, parallel)?;
     mirror(&mut schur, kept);
     progress(FactorStep::HasDone(1.0))?;
     let weakest = weaker(below, above);
-    Ok(Numeric { values, schur, weakest })
+    Ok(Numeric { schur, weakest })
 }
 
-/// Zeros. The system hands out the pages as they are written.
-fn cleared(length: usize, progress: &mut FactorProgress<'_>) -> Result<Vec<f64>, Failure> {
-    let mut zeros = reserved(length)?;
-    while zeros.len() < length {
+/// Makes zeros of `numbers`. The system hands out the pages as they are written.
+fn clear(
+    numbers: &mut Vec<f64>,
+    length: usize,
+    progress: &mut FactorProgress<'_>,
+) -> Result<(), Failure> {
+    numbers.clear();
+    numbers.try_reserve_exact(length).map_err(|_| OutOfMemory)?;
+    while numbers.len() < length {
         progress(FactorStep::HasDone(0.0))?;
-        zeros.resize(length.min(zeros.len() + CLEARED), 0.0);
+        numbers.resize(length.min(numbers.len() + CLEARED), 0.0);
     }
-    Ok(zeros)
+    Ok(())
 }
 
 /// The panels of a subtree.

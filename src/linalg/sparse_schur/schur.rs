@@ -53,7 +53,7 @@ impl SparseSchur {
         workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let Numeric { values, schur, .. } = diagnosed(&plan, &mut lower, workers, progress)?;
+        let (values, Numeric { schur, .. }) = diagnosed(&plan, &mut lower, workers, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };

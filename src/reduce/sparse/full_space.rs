@@ -4,6 +4,7 @@
 //! replaced by those of a diagonal matrix. The pattern stays, so that it is analysed once. With all of them held
 //! the matrix is definite if a condensed one exists at all.
 
+use std::mem::take;
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Argument, Error};
@@ -29,15 +30,16 @@ pub(super) struct FullSpace {
     dim: usize,
     units: Vec<f64>,
     cholesky: SparseCholesky,
-    /// The factor that was made last, for whom needs the same one next.
-    kept: Mutex<Option<Factor>>,
+    /// The factor that was made last, for whom needs the same one next, or its memory.
+    kept: Mutex<Factor>,
     /// The loads and all unknowns of the last load case, for its recovery.
     last: LastCase,
 }
 
-/// A factor, and what is held in it.
+/// A factor, and what is held in it; `None`: there is no more than its memory.
+#[derive(Default)]
 struct Factor {
-    held_set: HeldSet,
+    held_set: Option<HeldSet>,
     values: Values,
 }
 
@@ -56,7 +58,7 @@ impl FullSpace {
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
-        let (kept, last) = (Mutex::new(None), LastCase::default());
+        let (kept, last) = (Mutex::default(), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
         let values =
             space.cholesky.diagnosed(space.restricted(&held_set, 0.0), workers, progress)?;
@@ -64,7 +66,7 @@ impl FullSpace {
         for unit in &mut space.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
         }
-        space.kept = Mutex::new(Some(Factor { held_set, values }));
+        space.kept = Mutex::new(Factor { held_set: Some(held_set), values });
         Ok(space)
     }
 
@@ -106,7 +108,7 @@ impl FullSpace {
 
     /// A new user of the matrix, whose factors `workers` share.
     pub(super) fn in_use<'a>(&'a self, workers: &'a dyn Workers) -> InUse<'a> {
-        let factor = self.kept.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let factor = take(&mut *self.kept.lock().unwrap_or_else(PoisonError::into_inner));
         InUse { space: self, factor, workers }
     }
 
@@ -175,7 +177,7 @@ const REFINEMENTS: usize = 2;
 /// A user of the matrix with a factor of its own.
 pub(super) struct InUse<'a> {
     space: &'a FullSpace,
-    factor: Option<Factor>,
+    factor: Factor,
     workers: &'a dyn Workers,
 }
 
@@ -189,7 +191,7 @@ impl InUse<'_> {
 impl Drop for InUse<'_> {
     fn drop(&mut self) {
         let mut kept = self.space.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        *kept = self.factor.take();
+        *kept = take(&mut self.factor);
     }
 }
 
@@ -233,27 +235,27 @@ impl StiffnessOperator for InUse<'_> {
     }
 
     fn held_set(&self) -> Option<&HeldSet> {
-        self.factor.as_ref().map(|factor| &factor.held_set)
+        self.factor.held_set.as_ref()
     }
 
     fn hold(&mut self, held_set: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error> {
-        if self.factor.as_ref().is_some_and(|factor| factor.held_set == *held_set) {
+        if self.factor.held_set.as_ref() == Some(held_set) {
             return Ok(true);
         }
-        // Two factors never exist at a time.
-        self.factor = None;
+        self.factor.held_set = None;
         for soft in std::iter::once(0.0).chain(SPRINGS) {
             if !goes_on() {
                 return Ok(false);
             }
             let matrix = self.space.restricted(held_set, soft);
             let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Stopped) };
-            match self.space.cholesky.factor(&matrix, self.workers, asked) {
-                Ok(Some(values)) => {
-                    self.factor = Some(Factor { held_set: held_set.clone(), values });
+            let values = &mut self.factor.values;
+            match self.space.cholesky.factor(&matrix, values, self.workers, asked) {
+                Ok(true) => {
+                    self.factor.held_set = Some(held_set.clone());
                     return Ok(true);
                 }
-                Ok(None) => {}
+                Ok(false) => {}
                 Err(Failure::Stopped) => return Ok(false),
                 Err(_) => return Err(Error::OutOfMemory("the factor of the stiffness matrix")),
             }
@@ -265,17 +267,19 @@ impl StiffnessOperator for InUse<'_> {
     }
 
     fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
-        let Some(factor) = &self.factor else { unreachable!("something is held before") };
+        let Factor { held_set: Some(held_set), values } = &self.factor else {
+            unreachable!("something is held before")
+        };
         let (inner, size) = (self.space.inner, self.space.matrix.ncols().max(1));
         let mut right = forces.to_vec();
         // A vector, or several one behind the other.
         for right in right.chunks_exact_mut(size) {
-            for (force, held) in right[inner..].iter_mut().zip(&factor.held_set.held) {
+            for (force, held) in right[inner..].iter_mut().zip(&held_set.held) {
                 if *held {
                     *force = 0.0;
                 }
             }
         }
-        Ok(self.space.cholesky.solve(&factor.values, &right, goes_on))
+        Ok(self.space.cholesky.solve(values, &right, goes_on))
     }
 }
