@@ -5,6 +5,7 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 use faer::{Accum, MatMut, MatRef, Par};
 
 use super::double_double::{two_product, two_sum};
+use super::watched::GoesOn;
 
 /// Compressed columns, rows ascending.
 pub type Csc = SparseColMat<usize, f64>;
@@ -149,11 +150,16 @@ fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
 }
 
 /// The first `columns` columns of `Wᵀ A W`, in two parts: the lower triangle of their first `columns`
-/// rows, and all later rows. `lower` is the lower triangle of the symmetric `A`.
+/// rows, and all later rows; `None` where `goes_on` says no. `lower` is the lower triangle of the symmetric `A`.
 ///
 /// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
 /// no product needs the upper triangle.
-pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc), OutOfMemory> {
+pub fn congruence(
+    mut lower: Csc,
+    w: &Csc,
+    columns: usize,
+    goes_on: GoesOn<'_>,
+) -> Result<Option<(Csc, Csc)>, OutOfMemory> {
     for j in 0..lower.ncols() {
         if diagonal(&lower, j).is_some() {
             let place = lower.symbolic().col_ptr()[j];
@@ -162,8 +168,17 @@ pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc),
     }
     let half = product(&lower, w)?;
     drop(lower);
+    if !goes_on() {
+        return Ok(None);
+    }
     let half = product(&transposed(w)?, &half)?;
+    if !goes_on() {
+        return Ok(None);
+    }
     let mirrored = transposed(&half)?;
+    if !goes_on() {
+        return Ok(None);
+    }
     // Each entry of the product gives one of the lower triangle at the most.
     let (mut leading, mut below) =
         (Columns::with_capacity(half.compute_nnz())?, Columns::default());
@@ -177,7 +192,7 @@ pub fn congruence(mut lower: Csc, w: &Csc, columns: usize) -> Result<(Csc, Csc),
         leading.end_column();
         below.end_column();
     }
-    Ok((leading.matrix(columns), below.matrix(w.ncols() - columns)))
+    Ok(Some((leading.matrix(columns), below.matrix(w.ncols() - columns))))
 }
 
 /// `A B`.

@@ -14,6 +14,7 @@ use super::supports::FixedComponent;
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, congruence, from_columns, from_entries, product, times, transpose_times,
 };
+use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure};
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
@@ -97,9 +98,14 @@ impl ChangeOfVariables {
     }
 
     /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.
-    pub(super) fn transform(&self, host: Csc) -> Result<(Csc, Csc), OutOfMemory> {
+    pub(super) fn transform(
+        &self,
+        host: Csc,
+        progress: &mut FactorProgress<'_>,
+    ) -> Result<(Csc, Csc), Failure> {
         let host = with_springs(host, self.springs);
-        congruence(host, &self.matrix, self.unknowns)
+        let goes_on = &mut || progress(FactorStep::HasDone(0.0)).is_ok();
+        congruence(host, &self.matrix, self.unknowns, goes_on)?.ok_or(Failure::Stopped)
     }
 
     /// `T x + P p`; `None`: `p` is zero.

@@ -96,8 +96,11 @@ impl SparseReduction {
         (control.ask)(0.0, 0)?;
         let contact_forces = contact_forces(matrix.size, &rows, &frames).map_err(memory)?;
         drop(rows);
-        let (transformed, of_fixed) = variables.transform(host).map_err(memory)?;
         let mut asked = Asked::new(control.ask);
+        let (transformed, of_fixed) =
+            variables.transform(host, &mut |step| asked.goes_on(step)).map_err(|failure| {
+                asked.ended.take().unwrap_or_else(|| refused(&variables, own, failure))
+            })?;
         let free = variables.free();
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
         let (rank, workers, reserve) = (rank.as_deref(), control.workers, control.reserve);
