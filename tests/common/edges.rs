@@ -5,7 +5,7 @@ use fastrand::Rng;
 use super::dense::{dot, norm};
 use super::exact::UNIT;
 use super::problems::{
-    Case, Law, block, coulomb, definite, loaded, semidefinite, tresca, uniform, vector,
+    Case, Law, block, coulomb, definite, loaded, mixed, semidefinite, tresca, uniform, vector,
 };
 
 /// A problem, and what its maker knows of it.
@@ -28,7 +28,7 @@ type Class = (&'static str, fn(&mut Rng, usize) -> Made);
 /// A case, its rigid motions and its noise.
 type Made = (Case, Vec<Vec<f64>>, f64);
 
-pub const CLASSES: [Class; 22] = [
+pub const CLASSES: [Class; 24] = [
     ("definite, condition to 1e3, mu to 2", ordinary),
     ("definite, condition to 1e3, mu to 1e3", high_friction),
     ("definite, thresholds", thresholds),
@@ -51,6 +51,8 @@ pub const CLASSES: [Class; 22] = [
     ("ellipses to 1e6, slip along the normal", ellipses),
     ("ellipses to 1e6, slip against the force", collinear_ellipses),
     ("gaps of 1e-12 to 1e12 together", wide_gaps),
+    ("a law for each pair", mixed_laws),
+    ("ties", tied),
 ];
 
 /// The problem of a seed: all classes in turn, in 2D and in 3D.
@@ -473,6 +475,35 @@ fn wide_gaps(rng: &mut Rng, dim: usize) -> Made {
     for gap in &mut case.gap {
         let sign = if rng.u8(0..4) == 0 { -1.0 } else { 1.0 };
         *gap = sign * power(rng, -12.0, if sign < 0.0 { 0.0 } else { 12.0 });
+    }
+    (case, motions, noise)
+}
+
+/// Laws of all kinds but ties, on a definite matrix or on a body with rigid motions.
+fn mixed_laws(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = match rng.bool() {
+        true => ordinary(rng, dim),
+        false => rigid_motions(rng, dim),
+    };
+    let most = power(rng, -1.0, 1.0);
+    case.law = mixed(rng, (dim, case.pairs), most);
+    (case, motions, noise)
+}
+
+/// As [`mixed_laws`], some pairs tied, or all of them.
+fn tied(rng: &mut Rng, dim: usize) -> Made {
+    let (mut case, motions, noise) = mixed_laws(rng, dim);
+    if rng.u8(0..4) == 0 {
+        case.law = Law::Tied;
+    } else if let Law::ByPair(numbers) = &mut case.law {
+        let first = rng.usize(0..case.pairs);
+        let own = numbers.chunks_exact_mut(4).enumerate();
+        let tied = own.filter(|(pair, _)| *pair == first || rng.bool());
+        tied.for_each(|(_, numbers)| numbers.copy_from_slice(&[7.0, 0.0, 0.0, 0.0]));
+    }
+    // A tie without an obstacle is a pair without a law.
+    for gap in case.gap.iter_mut().filter(|gap| !gap.is_finite()) {
+        *gap = uniform(rng, -1.0, 1.0);
     }
     (case, motions, noise)
 }

@@ -4,7 +4,7 @@ use super::dense::dot;
 use super::edges::Problem;
 use super::ellipses::axes;
 use super::exact::{UNIT, force, largest_stiffness, quads, work};
-use super::problems::Case;
+use super::problems::{Case, Law};
 use super::quad::norm;
 
 /// Why `r` does not prove that there is no equilibrium: how far it is from that, beside what is allowed,
@@ -34,6 +34,20 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
     let (mut resisted, mut pulled) = (0.0, 0.0);
     for pair in 0..case.pairs {
         let part = &r[dim * pair..dim * (pair + 1)];
+        // A motion of the size of rounding beside the largest is none, nor is one as small as its distance to the
+        // motions of the maker: those of K as it is given are as far from them. Nor is one that strains K by rounding.
+        let strained = few * total / root[dim * pair];
+        if matches!(case.law.own(pair), Law::Tied) {
+            let moved = part.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+            let allowed = least + strained;
+            if moved > allowed {
+                return Some((
+                    moved / allowed,
+                    format!("the tied pair {pair} moves by {moved:.1e}"),
+                ));
+            }
+            continue;
+        }
         let along = quads(&part[1..]);
         let slide = axes(case, pair).map_or_else(|| norm(&along), |axes| axes.work(&along)).value();
         let [slope, offset, tension] = case.law.of(pair);
@@ -41,9 +55,6 @@ pub fn flaw_of_motion(problem: &Problem, r: &[f64]) -> Option<(f64, String)> {
         resisted += (offset - slope * tension) * slide;
         pulled += tension * part[0];
         let allowed = few * (part[0].abs() + lift);
-        // A motion of the size of rounding beside the largest is none, nor is one as small as its distance to the
-        // motions of the maker: those of K as it is given are as far from them. Nor is one that strains K by rounding.
-        let strained = few * total / root[dim * pair];
         let approach = part[0] + lift;
         let allowed = allowed + (1.0 + slope) * (least + strained);
         if case.gap[pair].is_finite() && approach > allowed {

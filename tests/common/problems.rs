@@ -121,7 +121,8 @@ impl Law {
         }
     }
 
-    /// `(mu, b, a)` of a pair: `p >= -a`, `|F_t| <= mu p + b`; `mu` the larger coefficient of an ellipse.
+    /// `(mu, b, a)` of a pair: `p >= -a`, `|F_t| <= mu p + b`; `mu` the larger coefficient of an ellipse. A tie bears more
+    /// than any force of these problems.
     pub fn of(&self, pair: usize) -> [f64; 3] {
         match self {
             Law::Coulomb(mu) => [mu[pair], 0.0, 0.0],
@@ -131,10 +132,13 @@ impl Law {
                 [numbers[3 * pair].max(numbers[3 * pair + 1]), 0.0, 0.0]
             }
             Law::ByPair(_) => self.own(pair).of(0),
-            Law::Tied => unreachable!("a tie has no bound"),
+            Law::Tied => [0.0, UNBOUNDED, UNBOUNDED],
         }
     }
 }
+
+/// A force beyond all others, and far enough from overflow that its square is finite.
+const UNBOUNDED: f64 = 1e100;
 
 /// A contact problem with its arrays.
 #[derive(Clone, Debug)]

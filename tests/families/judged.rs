@@ -14,7 +14,7 @@ use crate::common::quad::Quad;
 use signorini::{ContactProblem, Model, Monitor, Search, Settings, Solution, Status, Uniqueness};
 
 /// How many problems without the variable: 200 of each class in each dimension.
-const PROBLEMS: u64 = 8800;
+const PROBLEMS: u64 = 9600;
 
 /// Problems of a long run between two tables.
 const BETWEEN_PRINTS: u64 = 100_000;
