@@ -79,7 +79,8 @@ IMPL = re.compile(r"-> impl ([^{]*?)(?: \+ use<('\w+)[^{]*>)?\s*$")
 
 
 def of_a_box(result):
-    lifetime = result[2] or ("" if "'" in result[1] else "'_")
+    head = result.string[result.string.rindex("fn "):]
+    lifetime = result[2] or ("'_" if "'" not in result[1] or "(&self" in head else "")
     return f"-> Box<dyn {result[1]}{lifetime and ' + '}{lifetime}> "
 
 
