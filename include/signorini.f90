@@ -175,7 +175,7 @@ module signorini
 
     ! stiffness, inverse, held and precondition are c_funloc of bind(C) functions: see the header.
     type, bind(C) :: signorini_operator
-        integer(c_int32_t) :: struct_size = 24 + 7 * address_bytes
+        integer(c_int32_t) :: struct_size = 32 + 7 * address_bytes
         integer(c_int32_t) :: dim = 0
         integer(c_int64_t) :: pairs = 0
         type(c_funptr) :: stiffness = c_null_funptr
@@ -186,6 +186,7 @@ module signorini
         integer(c_int64_t) :: unknowns = 0
         type(c_ptr) :: place = c_null_ptr
         type(c_funptr) :: precondition = c_null_funptr
+        real(c_double) :: accuracy = 0
     end type
 
     type, bind(C) :: signorini_report

@@ -75,6 +75,11 @@ struct signorini_operator {
     /** With unknowns set: the unknown that is each component of d, from 0, N. */
     const int64_t *place;
     signorini_precondition_fn precondition; /**< With unknowns set. */
+    /**
+     * Of the pairs: what products and solutions agree to, relative to their sizes, as those of an
+     * iterative solver: no smaller tolerance can be met. 0: 1e-9.
+     */
+    double accuracy;
 };
 
 /**
@@ -93,8 +98,8 @@ struct signorini_operator {
  * is found. eta is measured by a product; the size of the loads beside it is known to a thousandth.
  *
  * The call asks for some products, which must be finite, linear, symmetric, positive and the same
- * each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
- * finite; the model can be used again.
+ * each time, to 1e-9 or K->accuracy. Later calls return -1 if a function fails or gives a number
+ * that is not finite; the model can be used again.
  *
  * @param K      the functions; the structure is copied, with units and place
  * @param model  out: the model

@@ -9,6 +9,7 @@ use super::sparse::shifted;
 use super::structures::Structure;
 use super::surroundings::in_host;
 use crate::error::Error;
+use crate::linalg::tolerances::AGREES;
 use crate::model::Model;
 use crate::reduce::{Held, HostOperator, PreconditionedOperator};
 
@@ -81,11 +82,15 @@ pub struct SignoriniOperator {
     pub place: *const i64,
     /// With unknowns set.
     pub precondition: SignoriniPreconditionFn,
+    /// Of the pairs: what products and solutions agree to, relative to their sizes, as those of an
+    /// iterative solver: no smaller tolerance can be met. 0: 1e-9.
+    pub accuracy: f64,
 }
 
 // SAFETY: it begins with its size; numbers, pointers and functions that may be NULL.
 unsafe impl Structure for SignoriniOperator {
-    const OLDER: &'static [usize] = &[std::mem::offset_of!(Self, unknowns)];
+    const OLDER: &'static [usize] =
+        &[std::mem::offset_of!(Self, unknowns), std::mem::offset_of!(Self, accuracy)];
 }
 
 /// The functions of a host.
@@ -94,6 +99,8 @@ struct Functions {
     inverse: SignoriniProductFn,
     held: SignoriniHeldFn,
     user: *mut c_void,
+    /// 0: the default.
+    accuracy: f64,
 }
 
 // SAFETY: the header demands that a host's functions may be called from the threads on which it calls the library
@@ -110,6 +117,10 @@ impl HostOperator for Functions {
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         // SAFETY: the header demands a function of this type that returns normally and writes N entries.
         answered(in_host(|| unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) }))
+    }
+
+    fn accuracy(&self) -> f64 {
+        if self.accuracy == 0.0 { AGREES } else { self.accuracy }
     }
 
     fn has_inverse(&self) -> bool {
@@ -179,8 +190,8 @@ impl PreconditionedOperator for OfAllUnknowns {
 /// is found. eta is measured by a product; the size of the loads beside it is known to a thousandth.
 ///
 /// The call asks for some products, which must be finite, linear, symmetric, positive and the same
-/// each time, to 1e-9. Later calls return -1 if a function fails or gives a number that is not
-/// finite; the model can be used again.
+/// each time, to 1e-9 or K->accuracy. Later calls return -1 if a function fails or gives a number
+/// that is not finite; the model can be used again.
 ///
 /// @param K      the functions; the structure is copied, with units and place
 /// @param model  out: the model
@@ -215,8 +226,8 @@ fn of_pairs(
         return Err(wrong("K: precondition needs unknowns, their number"));
     }
     let units = arrays.optional(1, "units", given.units, n)?;
-    let SignoriniOperator { inverse, held, user, .. } = *given;
-    let functions = Box::new(Functions { stiffness, inverse, held, user });
+    let SignoriniOperator { inverse, held, user, accuracy, .. } = *given;
+    let functions = Box::new(Functions { stiffness, inverse, held, user, accuracy });
     guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
     Ok(Model::operator(dim, pairs, functions, units))
 }

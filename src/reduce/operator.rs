@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use super::probes::{called, checked_images, is_unit, measured_units, probe, refuse};
 use super::{MatrixFreeReduction, Reduction, motion};
 use crate::error::{Error, Message, entry};
+use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
 use crate::workers::Workers;
@@ -17,6 +18,12 @@ pub trait HostOperator: Send + Sync {
     /// # Errors
     /// A number of the host.
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32>;
+
+    /// The part of their sizes to which products and solutions are linear, symmetric and the same each time: no tolerance
+    /// below it can be met.
+    fn accuracy(&self) -> f64 {
+        AGREES
+    }
 
     /// Returns `true` if there is [`Self::inverse`].
     fn has_inverse(&self) -> bool {
@@ -81,15 +88,20 @@ impl OperatorReduction {
             let place = entry("units", [wrong]);
             return refuse(format!("{place} must be positive and finite"));
         }
+        let agrees = operator.accuracy();
+        // Written so that NaN is refused.
+        if !(agrees > 0.0 && agrees < 1.0) {
+            return refuse(format!("accuracy is {agrees}, it must be between 0 and 1"));
+        }
         let held = Mutex::new(Vec::new());
         let mut reduction = OperatorReduction { operator, dim, units: vec![1.0; size], held };
         if size == 0 {
             return Ok(reduction);
         }
         let probes = [probe(size, 1), probe(size, 2)];
-        let products = checked_images("K_rel", &probes, |x| reduction.product(x))?;
+        let products = checked_images(("K_rel", agrees), &probes, |x| reduction.product(x))?;
         if reduction.operator.has_inverse() {
-            let images = checked_images("W", &probes, |x| reduction.by_inverse(x))?;
+            let images = checked_images(("W", agrees), &probes, |x| reduction.by_inverse(x))?;
             for (x, image) in probes.iter().zip(&images) {
                 if !(dot(x, image) > 0.0) {
                     return refuse("W is not positive definite: x . W x is not positive".into());
@@ -99,7 +111,7 @@ impl OperatorReduction {
         if reduction.operator.has_held() {
             let mask: Vec<bool> = (0..size).map(|i| i.is_multiple_of(HELD_IN_CHECK)).collect();
             let name = "the solution with components held";
-            let images = checked_images(name, &probes, |x| reduction.by_held(&mask, x))?;
+            let images = checked_images((name, agrees), &probes, |x| reduction.by_held(&mask, x))?;
             for image in images {
                 if let Some(i) = (0..size).find(|&i| mask[i] && image[i] != 0.0) {
                     let place = entry("y", [i]);

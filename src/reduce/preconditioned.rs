@@ -7,6 +7,7 @@ use super::probes::{called, checked_images, is_unit, probe, refuse};
 use super::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
 use crate::error::{Error, Message, entry, index};
 use crate::linalg::last_case::LastCase;
+use crate::linalg::tolerances::AGREES;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
 use crate::workers::Workers;
 
@@ -86,7 +87,7 @@ impl PreconditionedReduction {
         };
         if !units.is_empty() {
             let probes = [probe(units.len(), 1), probe(units.len(), 2)];
-            checked_images("A", &probes, |x| reduction.product(x))?;
+            checked_images(("A", AGREES), &probes, |x| reduction.product(x))?;
         }
         Ok(reduction)
     }

@@ -2,7 +2,6 @@
 
 use crate::error::{Argument, Error, entry};
 use crate::linalg::perturbation::Perturbation;
-use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::{dot, first_not_finite, norm};
 
 /// A vector without a pattern, of either sign and sizes between 1 and 2: the same in each run. Two vectors of
@@ -44,9 +43,10 @@ pub(super) fn is_unit(unit: f64) -> bool {
     unit > 0.0 && unit.is_finite()
 }
 
-/// The images of two probes, if a linear, symmetric, positive semi-definite and reproducible map has them.
+/// The images of two probes, if a map has them that `agrees` to this with a linear, symmetric, positive semi-definite and
+/// reproducible one.
 pub(super) fn checked_images(
-    name: &str,
+    (name, agrees): (&str, f64),
     [x, y]: &[Vec<f64>; 2],
     image: impl Fn(&[f64]) -> Result<Vec<f64>, Error>,
 ) -> Result<[Vec<f64>; 2], Error> {
@@ -56,22 +56,22 @@ pub(super) fn checked_images(
         norm(&difference)
     };
     let size = norm(&of_x) + norm(&of_y);
-    if apart(&image(x)?, &of_x) > AGREES * size {
+    if apart(&image(x)?, &of_x) > agrees * size {
         return refuse(format!("{name} is not reproducible: the same vector gives another one"));
     }
     let sum =
         |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a - 2.0 * b).collect() };
-    if apart(&image(&sum(x, y))?, &sum(&of_x, &of_y)) > AGREES * size {
+    if apart(&image(&sum(x, y))?, &sum(&of_x, &of_y)) > agrees * size {
         return refuse(format!("{name} is not linear"));
     }
     let terms = norm(x) * norm(&of_y) + norm(y) * norm(&of_x);
     let (one, other) = (dot(x, &of_y), dot(y, &of_x));
-    if (one - other).abs() > AGREES * terms {
+    if (one - other).abs() > agrees * terms {
         return refuse(format!(
             "{name} is not symmetric: x . {name} y is {one:e}, y . {name} x is {other:e}"
         ));
     }
-    if dot(x, &of_x).min(dot(y, &of_y)) < -AGREES * terms {
+    if dot(x, &of_x).min(dot(y, &of_y)) < -agrees * terms {
         return refuse(format!("{name} is not positive semi-definite: x . {name} x is negative"));
     }
     Ok([of_x, of_y])

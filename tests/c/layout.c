@@ -211,7 +211,7 @@ FIELD(signorini_obstacle, nodes, int64_t, 72);
 FIELD(signorini_obstacle, coordinates, double *, 80);
 FIELD(signorini_obstacle, faces, signorini_faces *, 88);
 
-SIZE(signorini_operator, 80);
+SIZE(signorini_operator, 88);
 FIELD(signorini_operator, struct_size, uint32_t, 0);
 FIELD(signorini_operator, dim, int32_t, 4);
 FIELD(signorini_operator, pairs, int64_t, 8);
@@ -223,6 +223,7 @@ FIELD(signorini_operator, user, void *, 48);
 FIELD(signorini_operator, unknowns, int64_t, 56);
 FIELD(signorini_operator, place, int64_t *, 64);
 FIELD(signorini_operator, precondition, signorini_precondition_fn, 72);
+FIELD(signorini_operator, accuracy, double, 80);
 SIZE(signorini_surface_settings, 128);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);

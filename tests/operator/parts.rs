@@ -63,6 +63,55 @@ fn hosts() -> [Box<dyn HostOperator>; 2] {
     [Box::new(Inverse), Box::new(Held)]
 }
 
+/// Products with an error of this part, which is not symmetric: as of an inner iteration.
+struct Inexact(f64);
+
+/// The accuracy of that host, which its products keep.
+const ACCURACY: f64 = 1e-5;
+
+impl HostOperator for Inexact {
+    fn accuracy(&self) -> f64 {
+        self.0
+    }
+
+    fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        product(x, y);
+        y[0] += 0.1 * ACCURACY * x[1];
+        Ok(())
+    }
+
+    fn has_inverse(&self) -> bool {
+        true
+    }
+
+    fn inverse(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        Inverse.inverse(x, y)
+    }
+}
+
+/// What is not symmetric by less than the accuracy that the host tells is taken, and the answers are those to a tolerance
+/// above it; without that accuracy it is refused, and so is one that is none.
+#[test]
+fn what_a_host_agrees_to_is_its_own_accuracy() {
+    let made = |accuracy| Model::operator(2, 3, Box::new(Inexact(accuracy)), None);
+    let words = |accuracy| made(accuracy).err().unwrap().message().to_string();
+    assert!(words(1e-9).contains("K_rel is not symmetric"), "{}", words(1e-9));
+    for wrong in [0.0, 1.0, -1.0, f64::NAN] {
+        assert!(words(wrong).contains("it must be between 0 and 1"), "{}", words(wrong));
+    }
+    let (model, mu) = (made(ACCURACY).unwrap(), [MU; 3]);
+    let law = FrictionLaw::Coulomb(&mu);
+    let case = LoadCase { load: &LOAD, prescribed: None, gap: &GAP, law, reference_slip: None };
+    let settings = Settings { tolerance: 10.0 * ACCURACY, ..Settings::default() };
+    let monitor = &mut Monitor::new(&settings, None);
+    let solution = model.solve(&case, &settings, None, monitor).unwrap();
+    assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+    for (i, d) in D.iter().enumerate() {
+        // The tolerance of all forces, which are of the size of 10.
+        assert!((solution.d[i] - d).abs() <= 100.0 * ACCURACY, "d[{i}]: {}", solution.d[i]);
+    }
+}
+
 /// A trait's own answers say that the host does not offer a kind.
 #[test]
 fn what_is_not_offered_fails() {

@@ -140,17 +140,19 @@ class Model:
         return cls("model_new_flexibility", dim, pairs, at(W), max(1, len(W)))
 
     @classmethod
-    def operator(cls, dim, pairs, stiffness, inverse=None, *, held=None, units=None):
+    def operator(cls, dim, pairs, stiffness, inverse=None, *, held=None, units=None,
+                 accuracy=0.0):
         """Products and solutions of the host alone: no matrix is formed. H = N.
 
         stiffness(x): K_rel x, N.  inverse(x): W x, N, with W close to the inverse of K_rel; may be
         None if held is given.  held(mask, changed, x): y of N entries that is 0 where mask is True,
         and K_rel y = x in the others; changed tells whether mask is another one than before.
-        units: force per length of the components, N; None: from products.
+        units: force per length of the components, N; None: from products.  accuracy: what the
+        answers agree to, relative to their sizes; 0: 1e-9.
         What one of the functions raises, the call of the model raises.
         """
         return cls._of_host(HostFunctions(dim, pairs, units, stiffness=stiffness, inverse=inverse,
-                                          held=held))
+                                          held=held, accuracy=accuracy))
 
     @classmethod
     def preconditioned(cls, product, precondition, place, units):

@@ -13,12 +13,13 @@ class HostFunctions:
     """Functions of the host as the library calls them. None of what they raise may cross the library: it goes on
     where a `with` on this object ends."""
 
-    def __init__(self, dim, pairs, units, *, place=None, **given):
+    def __init__(self, dim, pairs, units, *, place=None, accuracy=0.0, **given):
         self._dim, self._pairs, self._error, self._place = dim, pairs, None, None
         if place is None:
             self._size = dim * pairs
             self._units = components("units", units, pairs, dim, optional=True)
-            self.structure = sized(Operator, dim=dim, pairs=pairs, units=at(self._units))
+            self.structure = sized(Operator, dim=dim, pairs=pairs, units=at(self._units),
+                                   accuracy=accuracy)
         else:
             self._place, self._units = place, doubles(reals("units", units))
             if self._units.ndim != 1:

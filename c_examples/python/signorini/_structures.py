@@ -90,7 +90,7 @@ class Operator(ctypes.Structure):
         ("struct_size", u32), ("dim", i32), ("pairs", i64), ("stiffness", ProductFunction),
         ("inverse", ProductFunction), ("held", HeldFunction), ("units", address),
         ("user", address), ("unknowns", i64), ("place", address),
-        ("precondition", PreconditionFunction),
+        ("precondition", PreconditionFunction), ("accuracy", real),
     ]
 
 
