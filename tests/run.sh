@@ -95,6 +95,7 @@ host_packages() {
     have_parallel_mumps || echo libmumps-dev
     have octave-cli && have mkoctfile || echo octave octave-dev
     have_fclib || echo libfclib-dev
+    pkg-config --exists petsc 2>/dev/null || echo libpetsc-real-dev
 }
 
 # macOS has another nm, no readelf, and its compilers come otherwise.
