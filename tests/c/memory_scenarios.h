@@ -539,6 +539,35 @@ static int32_t operator_model(struct world *w)
     return status;
 }
 
+/* The inverse of the diagonal with springs, as the preconditioner of all unknowns. */
+static int32_t precondition(void *user, const int32_t *held, const double *springs, int32_t changed,
+                            const double *r, double *z)
+{
+    const chain *c = user;
+    (void)held, (void)changed;
+    for (int64_t i = 0; i < c->n; i++)
+        z[i] = r[i] / (c->K[i + c->n * i] + (i % 2 ? springs[i / 2] : 0));
+    return 0;
+}
+
+static int32_t preconditioned_model(struct world *w)
+{
+    chain *c = &w->plane;
+    double units[2 * PLANE];
+    int64_t place[2 * PLANE];
+    for (int64_t i = 0; i < c->n; i++) place[i] = i, units[i] = c->K[i + c->n * i];
+    const signorini_operator K = {.struct_size = sizeof K, .dim = 2, .pairs = c->pairs,
+                                  .stiffness = product, .units = units, .user = c,
+                                  .unknowns = c->n, .place = place, .precondition = precondition};
+    signorini_model *model = NULL;
+    int32_t status = signorini_model_new_operator(&K, &model);
+    if (!status)
+        status = signorini_model_solve(model, 1, c->f, NULL, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
+                                       NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
+    signorini_model_free(model);
+    return status;
+}
+
 /* ---- Surfaces ------------------------------------------------------------------------------ */
 
 /* From two surfaces to a file for ParaView. */
@@ -685,6 +714,7 @@ static const struct scenario scenarios[] = {
     {"dependent rows", dependent_rows, 0, 0},
     {"equations", equations, 0, 0},
     {"operator", operator_model, 0, 0},
+    {"operator with a preconditioner", preconditioned_model, 0, 0},
     {"mortar surfaces, .vtu", mortar_surfaces, 0, 0},
     {"node-to-surface, .vtu", node_surfaces, 0, 0},
     {"obstacle", obstacle, 0, 0},

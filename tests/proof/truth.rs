@@ -212,7 +212,10 @@ fn proofs_at_the_edges_hold_the_truth() {
         for (pair, (found, told)) in states(case, &exact).iter().zip(told).enumerate() {
             let [mu, cohesion, _] = case.law.of(pair);
             let is_smooth = mu == 0.0 && cohesion == 0.0 && *told == State::Slip;
-            assert!(found == told || is_smooth && *found == State::Stick, "{seed}: {found:?} {told:?}");
+            assert!(
+                found == told || is_smooth && *found == State::Stick,
+                "{seed}: {found:?} {told:?}"
+            );
         }
     }
     for (class, [solved, proved]) in counts.iter().enumerate() {
