@@ -83,7 +83,9 @@ impl PairLaw {
         let rounding = FEW_OPERATIONS * terms;
         // Next to its bound a pair that sticks may slip.
         let sticks = self.ellipse.is_none() && above(trial) + rounding <= threshold;
-        let slips = threshold > 0.0 && !sticks && self.gauge(trial) + rounding > threshold;
+        // A bound of zero is exact where it is no difference of cohesion and tension.
+        let has_bound = threshold > 0.0 || self.tension > 0.0;
+        let slips = has_bound && !sticks && self.gauge(trial) + rounding > threshold;
         let pull = if self.tension > 0.0 { f64::EPSILON * force[0].abs() } else { 0.0 };
         if slips { pull + rounding } else { pull }
     }

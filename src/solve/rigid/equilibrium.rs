@@ -177,26 +177,33 @@ impl<'c, R: Relation> Balance<'c, R> {
     }
 
     /// A motion next to this one along which no pair approaches its obstacle, by Newton's method on `r_n + slope |r_t|* = 0`
-    /// of the pairs that do or nearly do; as near to that as its steps come.
+    /// of the pairs that do or nearly do, and of those that a step would let approach; as near to that as its steps come.
     fn cleared(&self, mut motion: Vec<f64>) -> Vec<f64> {
+        let mut joined = vec![false; self.contact.pairs().len()];
         for _ in 0..STEPS {
-            let nearest = self.nearest(&motion);
-            if nearest <= STOPPED * self.motions.size(&motion) {
+            let (nearest, least) = (self.nearest(&motion), STOPPED * self.motions.size(&motion));
+            if nearest <= least {
                 break;
             }
-            let Some(step) = self.step_away(&motion) else { break };
+            let Some(step) = self.step_away(&motion, &joined) else { break };
             let moved: Vec<f64> = motion.iter().zip(step).map(|(r, step)| r + step).collect();
-            if !(self.nearest(&moved) < nearest) {
+            if self.nearest(&moved) < nearest {
+                motion = moved;
+                continue;
+            }
+            let before = joined.clone();
+            let approaches = self.approaches(&moved);
+            joined.iter_mut().zip(approaches).for_each(|(is_in, by)| *is_in |= by > least);
+            if joined == before {
                 break;
             }
-            motion = moved;
         }
         motion
     }
 
-    /// The motion that takes away the approach of the pairs that move towards their obstacles or along them, to first
-    /// order in the slip, and brings to rest those that nearly are, by least squares.
-    fn step_away(&self, motion: &[f64]) -> Option<Vec<f64>> {
+    /// The motion that takes away the approach of the pairs that move towards their obstacles or along them or have `joined`,
+    /// to first order in the slip, and brings to rest those that nearly are, by least squares.
+    fn step_away(&self, motion: &[f64], joined: &[bool]) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
         let size = self.motions.size(motion);
         let mut equations = Vec::new();
@@ -208,7 +215,7 @@ impl<'c, R: Relation> Balance<'c, R> {
                 equations.push((row, -dot(&force[..dim], own) * root));
             };
             let moves = |(r, root): (&f64, &f64)| (r * root).abs() > NEARLY * size;
-            if approach <= -NEGLIGIBLE * size {
+            if approach <= -NEGLIGIBLE * size && !joined[pair] {
                 continue;
             }
             match own.iter().zip(&self.motions.root[dim * pair..]).any(moves) {
