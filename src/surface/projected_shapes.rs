@@ -22,9 +22,6 @@ const PASSES: usize = 2;
 /// A function that keeps this share of its norm has lost nothing in the first pass.
 const KEPT: f64 = 0.9;
 
-/// The mean of the squares of -1 to 1: without it a square is orthogonal to what is constant there.
-const MEAN_SQUARE: f64 = 1.0 / 3.0;
-
 /// Sums that run beside each other: a processor adds several numbers at a time.
 const LANES: usize = 8;
 
@@ -131,8 +128,8 @@ impl Polynomials {
         let [s, t] = centre_and_scale(points);
         for [i, j] in kind.exponents() {
             let monomial = |at: Local| {
-                let power =
-                    |x: f64, exponent: i32| [1.0, x, x * x - MEAN_SQUARE][exponent as usize];
+                // Without the mean of the squares of -1 to 1 a square is orthogonal to what is constant there.
+                let power = |x: f64, exponent: i32| [1.0, x, x * x - 1.0 / 3.0][exponent as usize];
                 power((at[0] - s.0) / s.1, *i) * power((at[1] - t.0) / t.1, *j)
             };
             self.next.clear();

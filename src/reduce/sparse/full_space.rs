@@ -15,7 +15,7 @@ use crate::linalg::sparse_matrix::{
 use crate::linalg::sparse_schur::{
     FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
 };
-use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::problem::{GoesOn, HeldSet, SOLUTIONS, StiffnessOperator};
 use crate::workers::{SingleThread, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
@@ -147,7 +147,7 @@ impl FullSpace {
             x[self.inner..].copy_from_slice(d);
         }
         // A second step: the digits that the rounding of the first one has cost.
-        for _ in 0..REFINEMENTS {
+        for _ in 0..SOLUTIONS {
             let mut residuals = Vec::with_capacity(x.len());
             for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
                 residuals.extend(symmetric_residual(&self.matrix, (x, &[]), load));
@@ -170,9 +170,6 @@ fn factor_bytes(cholesky: &SparseCholesky, matrix: &Csc) -> u64 {
 
 /// Vectors of all unknowns that a solution holds at a time, beside directions of GMRES.
 const VECTORS: usize = 16;
-
-/// Solutions for given `d`, each with the residual of the one before.
-const REFINEMENTS: usize = 2;
 
 /// A user of the matrix with a factor of its own.
 pub(super) struct InUse<'a> {

@@ -69,6 +69,9 @@ pub trait NormalMap {
     }
 }
 
+/// Systems after which Newton's method is given up on operators and in flexibility form.
+pub const MOST_SYSTEMS: u64 = 40;
+
 /// The tolerance and the budget of Newton's method.
 #[derive(Clone, Copy)]
 pub struct Goal {

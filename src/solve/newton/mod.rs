@@ -16,7 +16,7 @@ mod start;
 mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
-pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, solve as descend};
+pub use descent::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, solve as descend};
 pub use iteration::{Ended, solve as newton_from};
 pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};

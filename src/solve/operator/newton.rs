@@ -7,13 +7,11 @@ use super::system::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
 use crate::monitor::Monitor;
-use crate::solve::newton::{AIM, Goal, NewtonOutcome, NormalMap, descend};
+use crate::solve::newton::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::Ending;
 
-/// Systems with full steps: where they converge they take fewer than steps with a line search. Systems after which it
-/// is given up.
+/// Systems with full steps: where they converge they take fewer than steps with a line search.
 const FULL_STEPS: u64 = 16;
-const MOST_SYSTEMS: u64 = 40;
 
 /// A linear system is solved to this part of its right side, and later to this part of `eta`, so that the last
 /// steps converge quadratically (S. C. Eisenstat and H. F. Walker, *Choosing the forcing terms in an inexact

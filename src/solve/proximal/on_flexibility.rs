@@ -19,15 +19,12 @@ use crate::linalg::vector::{NormSum, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::settings::{Method, Settings};
-use crate::solve::newton::{Goal, NewtonOutcome, NormalMap, descend};
+use crate::solve::newton::{Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::{Ending, Solution};
 
 /// Least and largest damping, beside flexibilities of size one. With `1e-3` fewer first starts arrive, with `0.1` more of
 /// them arrive and fewer of those that are drawn.
 const DAMPING: [f64; 2] = [1e-13, 1e-2];
-
-/// Systems after which it is given up.
-const MOST_SYSTEMS: u64 = 40;
 
 /// Part of the tolerance that is aimed at: forces are known to less than `eta` where `W` hardly feels them, and the last
 /// system of Newton's method gives most of the digits.
