@@ -15,6 +15,11 @@ pub fn alone() -> MutexGuard<'static, ()> {
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The bytes that are held.
+pub fn held() -> usize {
+    NOW.load(Relaxed)
+}
+
 /// The most bytes that were held at a time while `work` ran, beside those held before, and its result.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, T) {
     let before = NOW.load(Relaxed);

@@ -301,11 +301,17 @@ fn series(chain: &Chain, shares: &mut Shares) {
             reference_slip: None,
         };
         let cases: Vec<_> = loads.iter().map(|load| case(load)).collect();
+        let before = counted::held();
+        let mut series = model.series();
         let (peak, found) = counted::peak(|| {
-            model.solve_cases(&cases, &settings, Starts::Previous(None), None).len()
+            series.solve_cases(&cases, &settings, Starts::Previous(None), None).len()
         });
         assert_eq!(found, cases.len());
         let what = format!("{}D, {} pairs, a series, {search:?}", chain.dim, chain.pairs);
         shares.note(&what, n, peak, model.memory());
+        // The header allows 32 N N bytes for what a series keeps; beside them stand some vectors of N numbers.
+        let kept = counted::held().saturating_sub(before);
+        assert!(kept <= 32 * n * n + 800 * n, "{what}: {kept} bytes are kept");
+        println!("{what}: {:.2} K are kept", kept as f64 / (8 * n * n) as f64);
     }
 }
