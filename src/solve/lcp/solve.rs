@@ -174,10 +174,12 @@ fn certified(
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
         Ending::Stopped(stop) => stop.status(settings, &wanted()),
-        _ if let Some(place) = overflow => {
-            (Status::Stalled, format!("{place} is beyond the largest number, {:.1e}", f64::MAX))
-        }
-        other => (Status::Stalled, format!("{}; {}", reason(other), wanted())),
+        other => match overflow {
+            Some(place) => {
+                (Status::Stalled, format!("{place} is beyond the largest number, {:.1e}", f64::MAX))
+            }
+            None => (Status::Stalled, format!("{}; {}", reason(other), wanted())),
+        },
     };
     LcpSolution {
         status,
