@@ -525,18 +525,24 @@ static int32_t inverse(void *user, const double *x, double *y)
     return 0;
 }
 
-static int32_t operator_model(struct world *w)
+static int32_t solve_by(struct world *w, const signorini_operator *K)
 {
-    chain *c = &w->plane;
-    const signorini_operator K = {.struct_size = sizeof K, .dim = 2, .pairs = c->pairs,
-                                  .stiffness = product, .inverse = inverse, .user = c};
+    const chain *c = &w->plane;
     signorini_model *model = NULL;
-    int32_t status = signorini_model_new_operator(&K, &model);
+    int32_t status = signorini_model_new_operator(K, &model);
     if (!status)
         status = signorini_model_solve(model, 1, c->f, NULL, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
                                        NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
     signorini_model_free(model);
     return status;
+}
+
+static int32_t operator_model(struct world *w)
+{
+    chain *c = &w->plane;
+    const signorini_operator K = {.struct_size = sizeof K, .dim = 2, .pairs = c->pairs,
+                                  .stiffness = product, .inverse = inverse, .user = c};
+    return solve_by(w, &K);
 }
 
 /* The inverse of the diagonal with springs, as the preconditioner of all unknowns. */
@@ -559,13 +565,7 @@ static int32_t preconditioned_model(struct world *w)
     const signorini_operator K = {.struct_size = sizeof K, .dim = 2, .pairs = c->pairs,
                                   .stiffness = product, .units = units, .user = c,
                                   .unknowns = c->n, .place = place, .precondition = precondition};
-    signorini_model *model = NULL;
-    int32_t status = signorini_model_new_operator(&K, &model);
-    if (!status)
-        status = signorini_model_solve(model, 1, c->f, NULL, c->gap, SIGNORINI_LAW_COULOMB, c->mu,
-                                       NULL, NULL, w->d, w->F, w->state, NULL, NULL, NULL);
-    signorini_model_free(model);
-    return status;
+    return solve_by(w, &K);
 }
 
 /* ---- Surfaces ------------------------------------------------------------------------------ */
