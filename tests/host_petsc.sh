@@ -42,17 +42,8 @@ command -v cargo >/dev/null || PATH=$PATH:${CARGO_HOME:-${HOME:-/root}/.cargo}/b
     "$examples/3d/brick_mesh.c" "$examples/3d/brick_element.c" "$examples/common/checks.c" \
     "$root/target/release/libsignorini.a" $("$config" --libs "$petsc") -lm -lpthread -ldl -o "$work/contact"
 
-# As in host_mpi.sh.
-options=
-if "$mpirun" --version 2>/dev/null | grep -q 'Open MPI'; then
-    options=--oversubscribe
-    [ "$(id -u)" != 0 ] || options="$options --allow-run-as-root"
-fi
-OMPI_MCA_mpi_yield_when_idle=1
-MPIEXEC_TIMEOUT=600
-OMP_NUM_THREADS=1
-OPENBLAS_NUM_THREADS=1
-export OMPI_MCA_mpi_yield_when_idle MPIEXEC_TIMEOUT OMP_NUM_THREADS OPENBLAS_NUM_THREADS
+# shellcheck source=tests/common/mpi.sh
+. "$root/tests/common/mpi.sh"
 
 for processes in 1 2 4; do
     for bodies in "-edge 12" "-edge 9 -foundation 8"; do
