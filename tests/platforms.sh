@@ -17,8 +17,8 @@
 # cancelled, and run on Linux alone; valgrind watches this machine's programs. Within the others, limits of file size,
 # signals of POSIX and malloc's own settings are left out where the system has none.
 #
-# The standard library of a target is that of rustup's compiler, if `rustup target add` has brought it. Otherwise it is
-# compiled from Debian's source of it, rust-web-src, by Debian's compiler, rustc-web. For musl and macOS rustup is needed.
+# The standard library of a target is brought by `rustup target add`. Without rustup, that of Windows and aarch64 is
+# compiled from Debian's source of it, rust-web-src, by Debian's compiler, rustc-web; musl and macOS need rustup.
 set -u
 LC_ALL=C
 export LC_ALL

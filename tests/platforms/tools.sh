@@ -26,14 +26,14 @@ missing_of() {
     have cmake && have ctest || echo cmake
     case $1 in
     windows)
-        compiler_of x86_64-pc-windows-gnu || echo rustc-web cargo-web rust-web-src
+        compiler_of x86_64-pc-windows-gnu || have rustup || echo rustc-web cargo-web rust-web-src
         have x86_64-w64-mingw32-gcc || echo gcc-mingw-w64-x86-64
         have x86_64-w64-mingw32-g++ || echo g++-mingw-w64-x86-64
         have x86_64-w64-mingw32-gfortran || echo gfortran-mingw-w64-x86-64
         [ -x "$wine" ] || echo wine64
         ;;
     aarch64)
-        compiler_of aarch64-unknown-linux-gnu || echo rustc-web cargo-web rust-web-src
+        compiler_of aarch64-unknown-linux-gnu || have rustup || echo rustc-web cargo-web rust-web-src
         have aarch64-linux-gnu-gcc || echo gcc-aarch64-linux-gnu
         have aarch64-linux-gnu-g++ || echo g++-aarch64-linux-gnu
         have aarch64-linux-gnu-gfortran || echo gfortran-aarch64-linux-gnu
@@ -48,11 +48,17 @@ missing_of() {
 }
 wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
 
-# Targets of a platform that rustup's compiler alone has, and lacks.
+# Targets of a platform that rustup is to bring.
 missing_targets() {
-    targets=
-    [ "$1" != musl ] || targets=x86_64-unknown-linux-musl
-    [ "$1" != macos ] || targets="aarch64-apple-darwin x86_64-apple-darwin"
+    case $1 in
+    windows) targets=x86_64-pc-windows-gnu ;;
+    aarch64) targets=aarch64-unknown-linux-gnu ;;
+    musl) targets=x86_64-unknown-linux-musl ;;
+    macos) targets="aarch64-apple-darwin x86_64-apple-darwin" ;;
+    esac
+    case $1 in
+    windows | aarch64) ! compiler_of "$targets" || return 0 ;;
+    esac
     for target in $targets; do
         [ -d "$(rustc --print target-libdir --target "$target" 2>/dev/null)" ] || printf '%s ' "$target"
     done
