@@ -217,7 +217,7 @@ impl Model {
             let parts =
                 escape.map(|escape| (escape.motion.as_slice(), escape.unbalanced.as_slice()));
             let parts = parts.unwrap_or((motion, load));
-            let [moves, left] = driven_motion(&*self.reduction, load, parts);
+            let [moves, left] = driven_motion((&*self.reduction, self.dim), load, parts);
             // C cuts what is long: the force comes last.
             solution.message = format!("{NO_EQUILIBRIUM}: {moves}; {CAUSES}{left}").into();
         }

@@ -76,16 +76,8 @@ mod tests {
             &self.units
         }
 
-        fn coupling(&self, _: usize, _: usize) -> f64 {
-            0.0
-        }
-
         fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
             Ok(vec![self.support * x[0] + (x[0] - x[1]), x[1] - x[0], x[2]])
-        }
-
-        fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-            Ok(self.product(x)?.iter().zip(load).map(|(force, load)| force - load).collect())
         }
 
         fn magnitude(&self, size: &[f64]) -> Vec<f64> {

@@ -14,7 +14,7 @@ impl Model {
     /// As [`FlexibilityProblem::from_flexibility`] of the matrix.
     pub fn flexibility(dim: usize, pairs: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        let reduction = Box::new(FlexibilityReduction::dense(dim, size, w, ld)?);
+        let reduction = Box::new(FlexibilityReduction::dense(size, w, ld)?);
         Ok(Model { dim, pairs, reduction })
     }
 

@@ -38,6 +38,9 @@ impl HeldSet {
     }
 }
 
+/// Sums of `|A| size` beside the units, where no entry is known.
+const NEIGHBOURS: f64 = 8.0;
+
 /// The questions that a solver asks of bodies. Vectors have an entry for each unknown, the inner ones first.
 pub trait StiffnessOperator {
     /// Number of inner unknowns.
@@ -48,7 +51,9 @@ pub trait StiffnessOperator {
 
     /// Entry `A[i, j]` between components `i` and `j` of `d` that belong to one pair, `i` not equal to `j`; 0 if
     /// it is not known.
-    fn coupling(&self, i: usize, j: usize) -> f64;
+    fn coupling(&self, _i: usize, _j: usize) -> f64 {
+        0.0
+    }
 
     /// `A x`.
     ///
@@ -57,14 +62,24 @@ pub trait StiffnessOperator {
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error>;
 
     /// `A (x + low) - b`, as exactly as it can be had; `low` is what rounding to doubles has left out of the inner
-    /// unknowns.
+    /// unknowns, for bodies whose products are more exact than doubles.
     ///
     /// # Errors
     /// As [`Self::product`].
-    fn residual(&self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error>;
+    fn residual(&self, x: &[f64], _low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut residual: Vec<f64> = load.iter().map(|f| -f).collect();
+        if x.iter().any(|x| *x != 0.0) {
+            let product = self.product(x)?;
+            residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
+        }
+        Ok(residual)
+    }
 
-    /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`.
-    fn magnitude(&self, size: &[f64]) -> Vec<f64>;
+    /// Bound on the sums of `A x` in which each entry of `x` has at most the given size: `|A| size`; without entries of `A`
+    /// that of neighbours, and of the far field of a half space, beside the units.
+    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
+        size.iter().zip(self.units()).map(|(size, unit)| NEIGHBOURS * size * unit).collect()
+    }
 
     /// Returns `true` if [`Self::solve`] solves but for rounding, or has an inverse of which that is asked; otherwise it is
     /// a preconditioner, of which no accuracy is known.

@@ -1,7 +1,7 @@
 //! A body that the host itself has condensed on its contact nodes, on an obstacle: `d = u`.
 
-use super::{Reduction, motion};
-use crate::error::{Argument, Error, Message};
+use super::Reduction;
+use crate::error::{Argument, Error};
 use crate::linalg::free_motions::{Whole, settle};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
@@ -11,7 +11,6 @@ use crate::problem::symmetric_matrix::{check, check_semidefinite, is_symmetric_b
 
 /// The host's condensed stiffness.
 pub struct CondensedReduction {
-    dim: usize,
     /// Components of `d`.
     size: usize,
     stiffness: Vec<f64>,
@@ -30,7 +29,7 @@ impl CondensedReduction {
     ) -> Result<Self, Error> {
         let settled = settled(dim, matrix, ("K", Argument::Matrix), go_on)?;
         let stiffness = settled.unwrap_or_else(|| contiguous(matrix));
-        Ok(CondensedReduction { dim, size: matrix.size(), stiffness })
+        Ok(CondensedReduction { size: matrix.size(), stiffness })
     }
 }
 
@@ -117,9 +116,5 @@ impl Reduction for CondensedReduction {
 
     fn host_size(&self) -> usize {
         self.size
-    }
-
-    fn motion_in_words(&self, d: &[f64]) -> Message {
-        motion::of_pairs(self.dim, d).into()
     }
 }

@@ -4,6 +4,7 @@
 //! relative loads, and turns a solution back into the host's displacements and nodal forces.
 
 mod condensed;
+mod driven_motion;
 mod equations;
 mod flexibility;
 mod frame;
@@ -19,10 +20,10 @@ mod sparse;
 mod two_body;
 
 pub use condensed::CondensedReduction;
+pub(crate) use driven_motion::driven_motion;
 pub use equations::Equations;
 pub use flexibility::FlexibilityReduction;
 pub use memory::{memory, memory_of_vectors};
-pub(crate) use motion::driven_motion;
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
 pub use preconditioned::{Held, PreconditionedOperator, PreconditionedReduction};

@@ -3,8 +3,8 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::probes::{called, checked_images, is_unit, measured_units, probe, refuse};
-use super::{MatrixFreeReduction, Reduction, motion};
-use crate::error::{Error, Message, entry};
+use super::{MatrixFreeReduction, Reduction};
+use crate::error::{Error, entry};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
@@ -56,13 +56,9 @@ pub trait HostOperator: Send + Sync {
 /// Every component of this number is held in the check of solutions with components held.
 const HELD_IN_CHECK: usize = 3;
 
-/// Sums of `|K| |x|` beside the units of the components: neighbours, and the far field of a half space.
-pub(super) const NEIGHBOURS: f64 = 8.0;
-
 /// The operator, checked.
 pub struct OperatorReduction {
     operator: Box<dyn HostOperator>,
-    dim: usize,
     units: Vec<f64>,
     /// The components that were held in the last call of the host, if it has succeeded.
     held: Mutex<Vec<bool>>,
@@ -94,7 +90,7 @@ impl OperatorReduction {
             return refuse(format!("accuracy is {agrees}, it must be between 0 and 1"));
         }
         let held = Mutex::new(Vec::new());
-        let mut reduction = OperatorReduction { operator, dim, units: vec![1.0; size], held };
+        let mut reduction = OperatorReduction { operator, units: vec![1.0; size], held };
         if size == 0 {
             return Ok(reduction);
         }
@@ -154,20 +150,12 @@ impl OperatorReduction {
 }
 
 impl Reduction for OperatorReduction {
-    fn stiffness(&self) -> &[f64] {
-        &[]
-    }
-
     fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
         Some(self)
     }
 
     fn host_size(&self) -> usize {
         self.units.len()
-    }
-
-    fn motion_in_words(&self, d: &[f64]) -> Message {
-        motion::of_pairs(self.dim, d).into()
     }
 }
 
@@ -192,25 +180,8 @@ impl StiffnessOperator for InUse<'_> {
         &self.operator.units
     }
 
-    fn coupling(&self, _: usize, _: usize) -> f64 {
-        0.0
-    }
-
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         self.operator.product(x)
-    }
-
-    fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut residual: Vec<f64> = load.iter().map(|f| -f).collect();
-        if x.iter().any(|x| *x != 0.0) {
-            let product = self.product(x)?;
-            residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
-        }
-        Ok(residual)
-    }
-
-    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        size.iter().zip(&self.operator.units).map(|(size, unit)| NEIGHBOURS * size * unit).collect()
     }
 
     fn is_sparse(&self) -> bool {

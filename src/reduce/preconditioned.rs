@@ -2,10 +2,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::operator::NEIGHBOURS;
 use super::probes::{called, checked_images, is_unit, probe, refuse};
-use super::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
-use crate::error::{Error, Message, entry, index};
+use super::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase};
+use crate::error::{Error, entry, index};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
@@ -175,10 +174,6 @@ fn places(unknowns: usize, components: &[usize]) -> Result<Vec<usize>, Error> {
 }
 
 impl Reduction for PreconditionedReduction {
-    fn stiffness(&self) -> &[f64] {
-        &[]
-    }
-
     fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
         Some(self)
     }
@@ -218,10 +213,6 @@ impl Reduction for PreconditionedReduction {
         all.extend_from_slice(force);
         self.to_host(&all)
     }
-
-    fn motion_in_words(&self, d: &[f64]) -> Message {
-        motion::of_pairs(self.dim, d).into()
-    }
 }
 
 impl MatrixFreeReduction for PreconditionedReduction {
@@ -249,23 +240,8 @@ impl StiffnessOperator for InUse<'_> {
         &self.operator.units
     }
 
-    fn coupling(&self, _: usize, _: usize) -> f64 {
-        0.0
-    }
-
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
         self.operator.product(x)
-    }
-
-    /// The host multiplies doubles: what they leave out of the inner unknowns is left out.
-    fn residual(&self, x: &[f64], _: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut residual = self.product(x)?;
-        residual.iter_mut().zip(load).for_each(|(force, load)| *force -= load);
-        Ok(residual)
-    }
-
-    fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        size.iter().zip(self.units()).map(|(size, unit)| NEIGHBOURS * size * unit).collect()
     }
 
     fn is_sparse(&self) -> bool {

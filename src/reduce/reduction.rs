@@ -1,5 +1,6 @@
 //! The questions that every reduction of a structure to its contact pairs answers.
 
+use super::motion;
 use crate::error::{Error, Message};
 use crate::problem::{Dependence, FlexibilityForm, GoesOn, StiffnessOperator};
 use crate::workers::Workers;
@@ -43,7 +44,9 @@ pub struct SolvedCase<'a> {
 pub trait Reduction: Send + Sync {
     /// `K_rel`, column-major, square; of rows that depend on each other the stiffness `K` of their
     /// independent variables.
-    fn stiffness(&self) -> &[f64];
+    fn stiffness(&self) -> &[f64] {
+        &[]
+    }
 
     /// The reduction that is asked in the place of a stiffness that is not formed; [`Self::stiffness`] is empty then.
     fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
@@ -146,5 +149,7 @@ pub trait Reduction: Send + Sync {
 
     /// A motion in words, from its relative displacements: which part moves, where, and in which
     /// direction. It completes "it moves ...".
-    fn motion_in_words(&self, d: &[f64]) -> Message;
+    fn motion_in_words(&self, dim: usize, d: &[f64]) -> Message {
+        motion::of_pairs(dim, d).into()
+    }
 }

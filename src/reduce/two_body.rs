@@ -23,7 +23,6 @@ use crate::linalg::watched::GoesOn;
 
 /// The reduction of two bodies, kept for further load cases.
 pub struct TwoBodyReduction {
-    dim: usize,
     /// Components of `d`, and of the displacements of each body.
     size: usize,
     /// `true` if the host's first body is the softer one.
@@ -99,7 +98,7 @@ impl TwoBodyReduction {
         );
         let stiffness = stiffness.ok_or_else(not_semidefinite)?;
         let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
-        Ok(TwoBodyReduction { dim, size, exchanged, second, scale, sum, stiffness })
+        Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
     }
 
     /// The stiffer body's part, then the softer one's.
@@ -167,7 +166,7 @@ impl Reduction for TwoBodyReduction {
         [force, force].concat()
     }
 
-    fn motion_in_words(&self, d: &[f64]) -> Message {
+    fn motion_in_words(&self, dim: usize, d: &[f64]) -> Message {
         let u = self.displacements(None, d);
         let largest = norm_inf(&u);
         let (first, second) = u.split_at(self.size);
@@ -175,7 +174,7 @@ impl Reduction for TwoBodyReduction {
             if motion::rests(u, largest) {
                 format!("body {name} not at all")
             } else {
-                format!("body {name}: {}", motion::of_pairs(self.dim, u))
+                format!("body {name}: {}", motion::of_pairs(dim, u))
             }
         };
         format!("{}; {}", moving("A", first), moving("B", second)).into()

@@ -137,10 +137,11 @@ fn motions_are_told_alike_in_all_units() {
     };
     let reduction = SparseReduction::new(&matrix, &[], &pairs).unwrap();
     for unit in [1e-9, 1.0, 1e9] {
-        let words = reduction.motion_in_words(&[1e-7, -4.0, 2.0, 1e-5, 0.0, 0.0].map(|u| u * unit));
+        let words =
+            reduction.motion_in_words(2, &[1e-7, -4.0, 2.0, 1e-5, 0.0, 0.0].map(|u| u * unit));
         let expected = "3 of the degrees of freedom 1 to 3, most of all degree of freedom 1 by -1.000, 2 by 0.500, \
                         3 by 0.000; the slave of pair 0 moves along (0.000, -1.000) relative to what it faces";
         assert_eq!(words.to_string(), expected);
     }
-    assert_eq!(reduction.motion_in_words(&[0.0; 6]).to_string(), "nothing");
+    assert_eq!(reduction.motion_in_words(2, &[0.0; 6]).to_string(), "nothing");
 }

@@ -20,7 +20,6 @@ use crate::workers::{SingleThread, Workers};
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
 pub struct SparseReduction {
-    dim: usize,
     fixed_count: usize,
     variables: ChangeOfVariables,
     /// `Pᵀ K T`: a row for each fixed degree of freedom, a column for each unknown.
@@ -115,7 +114,6 @@ impl SparseReduction {
             schur.level(&fixed_components, pairs.dim);
         }
         Ok(SparseReduction {
-            dim: pairs.dim,
             fixed_count: fixed.len(),
             variables,
             of_fixed,
@@ -217,9 +215,8 @@ impl Reduction for SparseReduction {
         Some(&self.frames)
     }
 
-    fn motion_in_words(&self, d: &[f64]) -> Message {
+    fn motion_in_words(&self, dim: usize, d: &[f64]) -> Message {
         let whole = motion::of_host(&self.recover(None, None, d).unwrap_or_default());
-        let dim = self.dim;
         let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
         let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
         let Some(pair) = most.filter(|pair| size(pair) > 0.0) else {
