@@ -20,6 +20,7 @@ mod plan;
 mod schedule;
 mod schur;
 mod schur_update;
+mod separator;
 mod solve;
 mod structure;
 

@@ -1,0 +1,346 @@
+//! A separator by way of smaller graphs, between which it is asked if the work goes on.
+//!
+//! Vertices that are tied the most become one, two by two, until the graph is small enough for a call that cannot be
+//! asked. The separator of that call is carried back from graph to graph. In each it is refined: a vertex of the
+//! separator goes to one side, and those of its neighbours that are on the other side come into the separator (C. M.
+//! Fiduccia and R. M. Mattheyses 1982; B. Hendrickson and E. Rothberg, SIAM J. Sci. Comput. 20 (1998) 468-489).
+
+use std::borrow::Cow;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::factor_progress::{FactorProgress, FactorStep, Stopped};
+
+/// The neighbours of each vertex, ascending, and where they begin.
+#[derive(Clone)]
+pub struct Links {
+    pub start: Vec<i32>,
+    pub neighbour: Vec<i32>,
+}
+
+impl Links {
+    pub fn vertices(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    fn range(&self, v: usize) -> std::ops::Range<usize> {
+        self.start[v] as usize..self.start[v + 1] as usize
+    }
+
+    pub fn neighbours(&self, v: usize) -> impl Iterator<Item = usize> {
+        self.neighbour[self.range(v)].iter().map(|&w| w as usize)
+    }
+
+    /// The connected parts of the vertices that are not in the separator, each ascending.
+    pub fn parts(&self, separator: &[i32]) -> Vec<Vec<usize>> {
+        let mut is_open = vec![true; self.vertices()];
+        separator.iter().for_each(|&v| is_open[v as usize] = false);
+        let mut parts = Vec::new();
+        for from in 0..self.vertices() {
+            if !std::mem::take(&mut is_open[from]) {
+                continue;
+            }
+            let (mut part, mut done) = (vec![from], 0);
+            while let Some(&v) = part.get(done) {
+                done += 1;
+                part.extend(self.neighbours(v).filter(|&w| std::mem::take(&mut is_open[w])));
+            }
+            part.sort_unstable();
+            parts.push(part);
+        }
+        parts
+    }
+}
+
+/// Separators that are tried.
+const TRIALS: u64 = 4;
+
+/// The best separator of `links` that is made from those that `by_call` finds with some seeds in a graph of fewer than
+/// `small` vertices, if it can be made so small. `None` if there is none.
+///
+/// # Errors
+/// `progress` ends it.
+pub fn separator(
+    links: &Links,
+    small: usize,
+    by_call: impl Fn(&Links, u64) -> Option<Vec<i32>>,
+    progress: &mut FactorProgress<'_>,
+) -> Result<Option<Vec<i32>>, Stopped> {
+    let mut graph = Level::finest(links, small, progress)?;
+    let mut finer: Vec<(Level<'_>, Vec<i32>)> = Vec::new();
+    while graph.links.vertices() >= small {
+        progress(FactorStep::HasDone(0.0))?;
+        let (coarse, one) = graph.coarse();
+        let is_stuck = 10 * coarse.links.vertices() > 9 * graph.links.vertices();
+        if is_stuck {
+            break;
+        }
+        finer.push((std::mem::replace(&mut graph, coarse), one));
+    }
+    let mut best: Option<(f64, Vec<usize>)> = None;
+    for seed in 0..TRIALS {
+        progress(FactorStep::HasDone(0.0))?;
+        let Some(found) = by_call(&graph.links, seed) else { continue };
+        let mut sides = Sides::refined(&graph, graph.sides(&found), progress)?;
+        for (graph, one) in finer.iter().rev() {
+            let side = one.iter().map(|&v| sides.side[v as usize]).collect();
+            sides = Sides::refined(graph, side, progress)?;
+        }
+        let badness = sides.badness();
+        if badness.is_finite() && best.as_ref().is_none_or(|(least, _)| badness < *least) {
+            best = Some((badness, sides.side));
+        }
+    }
+    let between = |side: Vec<usize>| {
+        let marked = (0..).zip(side).filter(|&(_, side)| side == BETWEEN);
+        marked.map(|(v, _)| v).collect()
+    };
+    Ok(best.map(|(_, side)| between(side)))
+}
+
+/// The mark of a vertex of the separator; others have that of their side, 0 or 1.
+const BETWEEN: usize = 2;
+
+/// A graph whose vertices stand for several of the first one.
+struct Level<'l> {
+    links: Cow<'l, Links>,
+    /// What ties a vertex to each neighbour: the sum over the edges of the first graph.
+    strength: Vec<i32>,
+    /// Vertices of the first graph.
+    weight: Vec<i64>,
+}
+
+impl<'l> Level<'l> {
+    /// The first graph. Instead of one edge, an edge counts as the ways from end to end over at most one other vertex: what
+    /// becomes one has its neighbours in common, and a mesh stays one.
+    fn finest(
+        links: &'l Links,
+        small: usize,
+        progress: &mut FactorProgress<'_>,
+    ) -> Result<Self, Stopped> {
+        let mut strength = vec![1; links.neighbour.len()];
+        let mut next: Vec<usize> = links.start.iter().map(|&k| k as usize).collect();
+        // The last vertex whose neighbour this one is.
+        let mut beside = vec![usize::MAX; links.vertices()];
+        for v in 0..links.vertices() {
+            if v.is_multiple_of(small) {
+                progress(FactorStep::HasDone(0.0))?;
+            }
+            links.neighbours(v).for_each(|w| beside[w] = v);
+            for (k, w) in links.range(v).zip(links.neighbours(v)).filter(|&(_, w)| w > v) {
+                strength[k] += links.neighbours(w).filter(|&x| beside[x] == v).count() as i32;
+                // Vertices ascend, so that each is the next neighbour of those above it.
+                strength[next[w]] = strength[k];
+                next[w] += 1;
+            }
+        }
+        let weight = vec![1; links.vertices()];
+        Ok(Level { links: Cow::Borrowed(links), strength, weight })
+    }
+
+    fn edges(&self, v: usize) -> impl Iterator<Item = (usize, i32)> {
+        self.links.neighbours(v).zip(self.strength[self.links.range(v)].iter().copied())
+    }
+
+    /// The graph of twos, and the vertex that each one became.
+    fn coarse(&self) -> (Level<'static>, Vec<i32>) {
+        let size = self.links.vertices();
+        let (mut one, mut twos) = (vec![-1; size], Vec::new());
+        for v in 0..size {
+            if one[v] >= 0 {
+                continue;
+            }
+            let tie = |&(w, strength): &(usize, i32)| f64::from(strength) / self.weight[w] as f64;
+            let free = self.edges(v).filter(|&(w, _)| one[w] < 0);
+            // The first one of those that are tied the most.
+            let mate = free.reduce(|a, b| if tie(&b) > tie(&a) { b } else { a });
+            let two = [Some(v), mate.map(|(w, _)| w)];
+            two.iter().flatten().for_each(|&v| one[v] = twos.len() as i32);
+            twos.push(two);
+        }
+        let mut place = vec![usize::MAX; twos.len()];
+        let (mut start, mut edges, mut weight) = (vec![0], Vec::new(), Vec::new());
+        for (k, two) in twos.iter().enumerate() {
+            let begin = edges.len();
+            for (w, strength) in two.iter().flatten().flat_map(|&v| self.edges(v)) {
+                let w = one[w] as usize;
+                if w != k && (place[w] < begin || place[w] >= edges.len()) {
+                    place[w] = edges.len();
+                    edges.push((w as i32, strength));
+                } else if w != k {
+                    edges[place[w]].1 += strength;
+                }
+            }
+            edges[begin..].sort_unstable();
+            start.push(edges.len() as i32);
+            weight.push(two.iter().flatten().map(|&v| self.weight[v]).sum());
+        }
+        let (neighbour, strength) = edges.into_iter().unzip();
+        (Level { links: Cow::Owned(Links { start, neighbour }), strength, weight }, one)
+    }
+
+    /// The marks of a separator: of its parts, each large one goes to the side that is smaller so far.
+    fn sides(&self, separator: &[i32]) -> Vec<usize> {
+        let mut side = vec![BETWEEN; self.links.vertices()];
+        let mut parts = self.links.parts(separator);
+        parts.sort_by_key(|part| Reverse(part.len()));
+        let mut size = [0; 2];
+        for part in parts {
+            let to = usize::from(size[1] < size[0]);
+            size[to] += part.iter().map(|&v| self.weight[v]).sum::<i64>();
+            part.into_iter().for_each(|v| side[v] = to);
+        }
+        side
+    }
+}
+
+/// Two sides of a graph with the separator between them.
+struct Sides<'g> {
+    graph: &'g Level<'g>,
+    /// The mark of each vertex.
+    side: Vec<usize>,
+    /// The weight of each side and of the separator.
+    size: [i64; 3],
+    /// The weight of the neighbours on each side, of a vertex of the separator.
+    beside: Vec<[i64; 2]>,
+    /// Vertices that have left the separator.
+    has_left: Vec<bool>,
+    /// Vertices of the separator by their gain, what it loses if they go to one side and to the other.
+    queues: [BinaryHeap<(i64, Reverse<usize>)>; 2],
+    /// Changes in their order: the vertex, and its mark before.
+    changes: Vec<(usize, usize)>,
+}
+
+impl<'g> Sides<'g> {
+    /// The sides of these marks, refined as long as that makes the separator better.
+    fn refined(
+        graph: &'g Level<'g>,
+        side: Vec<usize>,
+        progress: &mut FactorProgress<'_>,
+    ) -> Result<Self, Stopped> {
+        let mut sides = Sides::new(graph, side);
+        while sides.improve() {
+            progress(FactorStep::HasDone(0.0))?;
+        }
+        Ok(sides)
+    }
+
+    fn new(graph: &'g Level<'g>, side: Vec<usize>) -> Self {
+        let mut size = [0; 3];
+        side.iter().zip(&graph.weight).for_each(|(&side, weight)| size[side] += weight);
+        let (beside, has_left) = (vec![[0; 2]; side.len()], vec![false; side.len()]);
+        let (queues, changes) = (Default::default(), Vec::new());
+        Sides { graph, side, size, beside, has_left, queues, changes }
+    }
+
+    /// Small for a small separator between halves of one size.
+    fn badness(&self) -> f64 {
+        self.size[BETWEEN] as f64 / (self.size[0] as f64 * self.size[1] as f64)
+    }
+
+    /// Moves each vertex at most once out of the separator, the one of the largest gain first, until as many moves as the
+    /// separator has vertices make nothing better. Goes back to the best that was met: `true` if that is better than before.
+    fn improve(&mut self) -> bool {
+        self.has_left.fill(false);
+        self.changes.clear();
+        self.queues = Default::default();
+        let between: Vec<usize> =
+            (0..self.side.len()).filter(|&v| self.side[v] == BETWEEN).collect();
+        between.iter().for_each(|&v| self.enter(v));
+        let (mut least, mut best) = (self.badness(), 0);
+        let mut patience = between.len();
+        while patience > 0
+            && let Some((v, to)) = self.next()
+        {
+            self.leave(v, to);
+            patience -= 1;
+            if self.badness() < least {
+                (least, best, patience) = (self.badness(), self.changes.len(), between.len());
+            }
+        }
+        while self.changes.len() > best
+            && let Some((v, before)) = self.changes.pop()
+        {
+            self.mark(v, before);
+        }
+        best > 0
+    }
+
+    fn mark(&mut self, v: usize, to: usize) {
+        self.size[self.side[v]] -= self.graph.weight[v];
+        self.size[to] += self.graph.weight[v];
+        self.side[v] = to;
+    }
+
+    fn gain(&self, v: usize, to: usize) -> i64 {
+        self.graph.weight[v] - self.beside[v][1 - to]
+    }
+
+    fn queue(&mut self, v: usize, to: usize) {
+        if !self.has_left[v] {
+            self.queues[to].push((self.gain(v, to), Reverse(v)));
+        }
+    }
+
+    /// The vertex of the largest gain, and where it goes; a side has at most three fifths of all.
+    fn next(&mut self) -> Option<(usize, usize)> {
+        let most = self.size.iter().sum::<i64>() * 3 / 5;
+        let mut found: Option<((i64, Reverse<i64>), usize, usize)> = None;
+        for to in [0, 1] {
+            while let Some(&(gain, Reverse(v))) = self.queues[to].peek() {
+                let holds = self.side[v] == BETWEEN && !self.has_left[v];
+                if !holds || gain != self.gain(v, to) {
+                    self.queues[to].pop();
+                    continue;
+                }
+                let fits = self.size[to] + self.graph.weight[v] <= most;
+                let rank = (gain, Reverse(self.size[to]));
+                if fits && found.is_none_or(|(other, ..)| other < rank) {
+                    found = Some((rank, v, to));
+                }
+                break;
+            }
+        }
+        found.map(|(_, v, to)| (v, to))
+    }
+
+    /// A vertex leaves the separator for one side; its neighbours on the other side come in.
+    fn leave(&mut self, v: usize, to: usize) {
+        let graph = self.graph;
+        self.changes.push((v, BETWEEN));
+        self.mark(v, to);
+        self.has_left[v] = true;
+        for w in graph.links.neighbours(v) {
+            if self.side[w] == BETWEEN {
+                self.beside[w][to] += graph.weight[v];
+                self.queue(w, 1 - to);
+            }
+        }
+        for w in graph.links.neighbours(v) {
+            if self.side[w] == 1 - to {
+                self.changes.push((w, 1 - to));
+                self.mark(w, BETWEEN);
+                self.enter(w);
+                for x in graph.links.neighbours(w).filter(|&x| x != w) {
+                    if self.side[x] == BETWEEN {
+                        self.beside[x][1 - to] -= graph.weight[w];
+                        self.queue(x, to);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A vertex is in the separator.
+    fn enter(&mut self, v: usize) {
+        let mut beside = [0; 3];
+        for w in self.graph.links.neighbours(v) {
+            beside[self.side[w]] += self.graph.weight[w];
+        }
+        self.beside[v] = [beside[0], beside[1]];
+        [0, 1].into_iter().for_each(|to| self.queue(v, to));
+    }
+}
+
+#[cfg(test)]
+pub mod tests;

@@ -1,0 +1,116 @@
+//! Separators of small graphs, whose properties are counted.
+
+use std::collections::BTreeSet;
+
+use super::{BETWEEN, Level, Links, Sides, separator};
+use fastrand::Rng;
+
+/// A strip of `length` x `width` nodes, each beside the eight around it.
+pub fn strip(length: usize, width: usize) -> Links {
+    let (mut start, mut neighbour) = (vec![0], Vec::new());
+    for v in 0..length * width {
+        let near = |w: &usize| {
+            (w / width).abs_diff(v / width) <= 1 && (w % width).abs_diff(v % width) <= 1
+        };
+        let around = v.saturating_sub(2 * width)..(v + 2 * width).min(length * width);
+        neighbour.extend(around.filter(near).filter(|&w| w != v).map(|w| w as i32));
+        start.push(neighbour.len() as i32);
+    }
+    Links { start, neighbour }
+}
+
+/// A connected graph by chance: a path with more edges.
+fn random(rng: &mut Rng, size: usize, more: usize) -> Links {
+    let mut edges: Vec<_> = (1..size).map(|v| (v - 1, v)).collect();
+    edges.extend((0..more).map(|_| (rng.usize(0..size), rng.usize(0..size))));
+    let mut beside = vec![BTreeSet::new(); size];
+    for (v, w) in edges.into_iter().filter(|(v, w)| v != w) {
+        beside[v].insert(w as i32);
+        beside[w].insert(v as i32);
+    }
+    let (mut start, mut neighbour) = (vec![0], Vec::new());
+    for beside in beside {
+        neighbour.extend(beside);
+        start.push(neighbour.len() as i32);
+    }
+    Links { start, neighbour }
+}
+
+fn finest(links: &Links) -> Level<'_> {
+    Level::finest(links, usize::MAX, &mut |_| Ok(())).unwrap()
+}
+
+/// In graphs of twos as in the first one: no edge leads from side to side, sizes are sums of weights, and what is
+/// refined is no worse.
+#[test]
+fn what_is_refined_is_a_separator_that_is_no_worse() {
+    let rng = &mut Rng::with_seed(1);
+    for _ in 0..200 {
+        let size = rng.usize(10..200);
+        let links = random(rng, size, size / 2);
+        let first = finest(&links);
+        let coarse = first.coarse().0;
+        for graph in [first, coarse] {
+            // A vertex beside the other side is in the separator.
+            let half = graph.links.vertices() / 2;
+            let other = |v: usize| graph.links.neighbours(v).any(|w| (w < half) != (v < half));
+            let mark = |v| if other(v) { BETWEEN } else { usize::from(v < half) };
+            let side: Vec<usize> = (0..graph.links.vertices()).map(mark).collect();
+            let before = Sides::new(&graph, side.clone()).badness();
+            let sides = Sides::refined(&graph, side, &mut |_| Ok(())).unwrap();
+            assert!(!(sides.badness() > before), "{} > {before}", sides.badness());
+            let mut size = [0; 3];
+            for (v, &side) in sides.side.iter().enumerate() {
+                size[side] += graph.weight[v];
+                let across = graph.links.neighbours(v).any(|w| sides.side[w] + side == 1);
+                assert!(!across, "{v}: {:?}", sides.side);
+            }
+            assert_eq!(sides.size, size);
+        }
+    }
+}
+
+/// Each vertex becomes a part of one other, with a neighbour or alone; weights are counts, and what ties two of the
+/// new ones is the sum of what ties their parts.
+#[test]
+fn twos_have_the_weights_and_ties_of_their_parts() {
+    let rng = &mut Rng::with_seed(2);
+    for _ in 0..100 {
+        let size = rng.usize(2..60);
+        let links = random(rng, size, size);
+        let fine = finest(&links);
+        for v in 0..size {
+            for (w, strength) in fine.edges(v) {
+                let common = links.neighbours(v).filter(|&x| links.neighbours(w).any(|y| y == x));
+                assert_eq!(strength, 1 + common.count() as i32);
+            }
+        }
+        let (coarse, one) = fine.coarse();
+        let of = |k: usize| one.iter().enumerate().filter(move |&(_, &one)| one as usize == k);
+        for k in 0..coarse.links.vertices() {
+            let parts: Vec<usize> = of(k).map(|(v, _)| v).collect();
+            assert_eq!(coarse.weight[k], parts.len() as i64);
+            let tied =
+                |[v, w]: [usize; 2]| fine.edges(v).find(|edge| edge.0 == w).map(|edge| edge.1);
+            assert!(parts.len() == 1 || tied([parts[0], parts[1]]).is_some(), "{parts:?}");
+            assert!(coarse.links.neighbours(k).is_sorted());
+            for other in (0..coarse.links.vertices()).filter(|&other| other != k) {
+                let pairs = parts.iter().flat_map(|&v| of(other).map(move |(w, _)| [v, w]));
+                let sum: i32 = pairs.filter_map(tied).sum();
+                let told = coarse.edges(k).find(|edge| edge.0 == other).map_or(0, |edge| edge.1);
+                assert_eq!(told, sum);
+            }
+        }
+    }
+}
+
+/// Where the call finds nothing there is no separator, and neither where what it finds is empty.
+#[test]
+fn what_parts_nothing_is_no_separator() {
+    let links = strip(60, 5);
+    for found in [None, Some(Vec::new())] {
+        let call = |_: &Links, _| found.clone();
+        let by_call = separator(&links, usize::MAX, call, &mut |_| Ok(())).unwrap();
+        assert_eq!(by_call, None, "{found:?}");
+    }
+}
