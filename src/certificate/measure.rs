@@ -326,3 +326,6 @@ fn ratio(part: f64, whole: f64) -> f64 {
         part / whole
     }
 }
+
+#[cfg(test)]
+mod tests;

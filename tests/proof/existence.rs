@@ -248,3 +248,16 @@ fn proved_errors_have_no_unit() {
     }
     assert!(proved > 40, "{proved}");
 }
+
+/// The solution of `m d = 1` is no double; the proof tells it in two parts, and encloses it to twice the precision: `16 (n + 4)²`
+/// roundings of 2^-106, here 576, are counted for each of both terms, and ten thousand are more than they become.
+#[test]
+fn what_is_no_double_is_enclosed_in_twice_the_precision() {
+    for m in [3.0, 7.0, 49.0, 1e3 + 1.0] {
+        let (k, f, gap) = (vec![m, 0.0, 0.0, m], vec![1.0, 1.0], vec![f64::INFINITY]);
+        let case = Case { dim: 2, pairs: 1, k, f, gap, law: Law::Coulomb(vec![0.5]), slip: None };
+        let proof = prove(&case.problem(), &[1.0 / m; 2], &[State::Open]).expect("a proof");
+        assert_holds(&case, &proof, &format!("{m}"));
+        assert!(size(&proof.d_radius) <= 1e4 * 2_f64.powi(-106) / m, "{m}: {proof:?}");
+    }
+}

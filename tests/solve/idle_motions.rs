@@ -134,7 +134,10 @@ fn a_far_start_ends_at_the_least_of_its_solutions() {
         let mut held: Vec<usize> = (0..places.len()).collect();
         rng.shuffle(&mut held);
         held.truncate(rng.usize(0..dim));
-        let (case, d) = pressed(rng, dim, length, &held);
+        let (mut case, d) = pressed(rng, dim, length, &held);
+        // Units of force.
+        let unit = 2_f64.powi([0, 40, -40][seed / 2 % 3]);
+        case.k.iter_mut().chain(&mut case.f).for_each(|force| *force *= unit);
         let motions = idle(dim, &places, &held);
         let mut start = d.clone();
         for motion in &motions {

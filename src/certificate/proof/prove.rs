@@ -86,17 +86,12 @@ pub(crate) fn prove_parts(
 /// The displacements, with those that their pieces hold where they are held.
 fn on_pieces(contact: &Contact<'_>, pairs: &[EnclosedPiece], mut centre: Centre) -> Centre {
     let dim = contact.dim();
-    let mut changed = false;
     for (at, pair) in pairs.iter().enumerate() {
         for c in (0..dim).filter(|&c| !pair.moves(c)) {
-            let held = (pair.held(c), 0.0);
-            changed |= (centre.d[dim * at + c], centre.low[dim * at + c]) != held;
-            (centre.d[dim * at + c], centre.low[dim * at + c]) = held;
+            (centre.d[dim * at + c], centre.low[dim * at + c]) = (pair.held(c), 0.0);
         }
     }
-    if changed {
-        centre.force = contact.problem().force_of_parts(&centre.d, &centre.low);
-    }
+    centre.force = contact.problem().force_of_parts(&centre.d, &centre.low);
     centre
 }
 

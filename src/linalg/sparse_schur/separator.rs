@@ -52,10 +52,7 @@ impl Links {
     }
 }
 
-/// Separators that are tried.
-const TRIALS: u64 = 4;
-
-/// The best separator of `links` that is made from those that `by_call` finds with some seeds in a graph of fewer than
+/// The best separator of `links` that is made from those that `by_call` finds with four seeds in a graph of fewer than
 /// `small` vertices, if it can be made so small. `None` if there is none.
 ///
 /// # Errors
@@ -71,14 +68,15 @@ pub fn separator(
     while graph.links.vertices() >= small {
         progress(FactorStep::HasDone(0.0))?;
         let (coarse, one) = graph.coarse();
-        let is_stuck = 10 * coarse.links.vertices() > 9 * graph.links.vertices();
-        if is_stuck {
+        // A graph in which few vertices find another one becomes no smaller.
+        let least = graph.links.vertices() / 10;
+        if coarse.links.vertices() + least > graph.links.vertices() {
             break;
         }
         finer.push((std::mem::replace(&mut graph, coarse), one));
     }
     let mut best: Option<(f64, Vec<usize>)> = None;
-    for seed in 0..TRIALS {
+    for seed in 0..4 {
         progress(FactorStep::HasDone(0.0))?;
         let Some(found) = by_call(&graph.links, seed) else { continue };
         let mut sides = Sides::refined(&graph, graph.sides(&found), progress)?;

@@ -125,11 +125,10 @@ impl<'c, R: Relation> Balance<'c, R> {
                     return Some(proof);
                 }
             }
-            let worst = self.worst(&motion);
-            if worst.is_empty() || rest == last {
+            if rest == last {
                 return None;
             }
-            for pair in worst.into_iter().take(JOINING) {
+            for pair in self.worst(&motion).into_iter().take(JOINING) {
                 let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
                 edges.push(self.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
             }
@@ -244,3 +243,6 @@ fn least_squares(equations: &[(Vec<f64>, f64)], n: usize) -> Option<Vec<f64>> {
     }
     Some(all)
 }
+
+#[cfg(test)]
+mod tests;

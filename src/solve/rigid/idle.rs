@@ -3,14 +3,14 @@
 //! A body on few points may turn off one of them without any force: each lift is a solution, and rounding of a
 //! load decides how far a method goes. A host's residual then loses the digits that the displacements
 //! have more than the loads ask for. So where displacements are that large, the rigid motion is taken away
-//! that moves no pair with a force, and that the loads do not drive.
+//! that moves no pair with a force.
 
 use std::cell::OnceCell;
 
 use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
-use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE, ROUNDING_OF_SUM};
-use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
+use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE};
+use crate::linalg::vector::{dot, largest_of, norm_inf};
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
 use crate::solve::result::{Call, Candidate};
@@ -19,8 +19,8 @@ use crate::solve::result::{Call, Candidate};
 /// digits.
 const LARGE: f64 = 1e-10 / f64::EPSILON;
 
-/// The candidate without such a motion, if there is time to find it. What moves with it is brought into equilibrium again,
-/// without the rounding of the way back; a solution that would be none then stays where it is.
+/// The candidate without such a motion, if there is time to find it, and if it is a solution then. What moves with it is
+/// brought into equilibrium again, without the rounding of the way back.
 pub fn without_idle_motion(
     call: &Call<'_>,
     candidate: Candidate,
@@ -34,20 +34,14 @@ pub fn without_idle_motion(
     let block = FreeBlock::of_problem(problem, others, &mut monitor.asking());
     let Some(block) = block else { return candidate };
     let motion = RigidMotions::of_block(problem, &block).part(candidate.d());
-    let driven = dot(contact.load_with_tension(), &motion).abs();
-    let could = norm_inf(contact.load_with_tension()) * norm_inf(&motion);
-    if norm(&motion) == 0.0 || driven > ROUNDING_OF_SUM * could {
-        return candidate;
-    }
     let part = contact.admissible_part(candidate.d(), &motion);
     let parts = candidate.d().iter().zip(&motion);
     let mut d: Vec<f64> = parts.map(|(d, motion)| d - part * motion).collect();
     block.equilibrate(problem.load(), &mut d);
     let force = problem.force(&d);
     let moved = candidate.clone().moved_to(d, Vec::new(), force);
-    let is_solution =
-        |candidate: &Candidate| candidate.certificate(contact).holds(call.settings.tolerance);
-    if is_solution(&candidate) && !is_solution(&moved) { candidate } else { moved }
+    let is_solution = moved.certificate(contact).holds(call.settings.tolerance);
+    if is_solution { moved } else { candidate }
 }
 
 /// The components of the pairs on which no force acts. The block of these resists a rigid motion of theirs alone no more

@@ -181,3 +181,73 @@ fn in_words<R: Relation>(
         dot(unbalanced, motion),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::FrictionLaw;
+    use crate::solve::solve;
+
+    /// A body of two pairs that a spring ties along each direction and nothing holds, under whole-numbered loads.
+    fn of_two_pairs<T>(work: impl FnOnce(&ContactProblem<'_>) -> T) -> T {
+        let k = [
+            [2.0, 0.0, -2.0, 0.0],
+            [0.0, 8.0, 0.0, -8.0],
+            [-2.0, 0.0, 2.0, 0.0],
+            [0.0, -8.0, 0.0, 8.0],
+        ];
+        let data = ContactData {
+            dim: 2,
+            pairs: 2,
+            stiffness: k.as_flattened(),
+            ld: 4,
+            load: &[-1.0, 3.0, -5.0, 2.0],
+            gap: &[0.0; 2],
+            law: FrictionLaw::Coulomb(&[0.5; 2]),
+            reference_slip: None,
+        };
+        work(&ContactProblem::new(data).expect("valid data"))
+    }
+
+    /// The escape along a motion `p` has the largest component 1, and is as fast as the loads drive it against the viscosity,
+    /// a speed of `f . p / sum k p²`, so that the forces of the viscosity do the work of the loads along `p`.
+    #[test]
+    fn an_escape_along_a_motion_has_the_work_of_the_loads() {
+        of_two_pairs(|problem| {
+            let contact = Contact::new(problem);
+            for length in [1.0, 4.0] {
+                let proof = [-1.0, 2.0, -1.0, 2.0].map(|r| r * length);
+                let motions = RigidMotions::along(problem, &proof);
+                let Escape { motion, unbalanced } =
+                    Viscous { contact: &contact, motions }.along(&proof);
+                // f . p = 1 + 6 + 5 + 4 = 16 and sum k p² = 2 + 32 + 2 + 32 = 68, in units of length 1.
+                let exact = [2.0, 8.0, 2.0, 8.0].map(|k| 16.0 / 68.0 * k);
+                let sizes = [-1.0, 2.0, -1.0, 2.0];
+                for i in 0..4 {
+                    // Ten roundings of numbers below 4.
+                    assert!((motion[i] - sizes[i] / 2.0).abs() <= 1e-14, "{motion:?}");
+                    assert!((unbalanced[i] - exact[i] * sizes[i]).abs() <= 1e-14, "{unbalanced:?}");
+                }
+            }
+        });
+    }
+
+    /// A run-away tells its motion, in words too, and does not change the status.
+    #[test]
+    fn a_run_away_is_told() {
+        of_two_pairs(|problem| {
+            let (contact, settings) = (Contact::new(problem), Settings::default());
+            let monitor = &mut Monitor::new(&settings, None);
+            let mut solution = solve(problem, &settings, None, monitor).expect("the settings fit");
+            let before = solution.status;
+            solution.escape = None;
+            describe_run_away(&contact, &mut solution, vec![-3.0, 6.0, -3.0, 6.0]);
+            assert_eq!(solution.status, before);
+            let escape = solution.escape.expect("a motion");
+            let expected = [-0.5, 1.0, -0.5, 1.0];
+            let far = |(a, b): (&f64, f64)| (a - b).abs() > 1e-14;
+            assert!(!escape.motion.iter().zip(expected).any(far), "{:?}", escape.motion);
+            assert!(solution.message.contains("it moves 2 of 2 pairs"), "{}", solution.message);
+        });
+    }
+}

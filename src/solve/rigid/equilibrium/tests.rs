@@ -1,0 +1,113 @@
+//! Motions of a body of three pairs that nothing holds, in closed form.
+
+use super::{Balance, least_squares};
+use crate::law::Contact;
+use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::solve::result::Ending;
+use crate::solve::rigid::motions::RigidMotions;
+use fastrand::Rng;
+
+/// Three pairs on one line, tied to each other by springs of 1, each touching its obstacle.
+fn body() -> ContactProblem<'static> {
+    let mut k = vec![0.0; 36];
+    for (pair, component) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let (i, j) = (2 * pair + component, 2 * pair + component + 2);
+        (k[7 * i], k[7 * j]) = (k[7 * i] + 1.0, k[7 * j] + 1.0);
+        (k[6 * i + j], k[6 * j + i]) = (-1.0, -1.0);
+    }
+    let data = ContactData {
+        dim: 2,
+        pairs: 3,
+        stiffness: k.leak(),
+        ld: 6,
+        load: &[0.0; 6],
+        gap: &[0.0; 3],
+        law: FrictionLaw::Frictionless,
+        reference_slip: None,
+    };
+    ContactProblem::new(data).expect("valid data")
+}
+
+/// The motion by `by` of all pairs along the normals.
+fn along_normals(by: f64) -> [f64; 6] {
+    [by, 0.0, by, 0.0, by, 0.0]
+}
+
+/// A body that moves away from its obstacles, of whatever length its motion is, has no equilibrium where the motion proves
+/// that, and only there. One that moves towards them is stopped, and proves nothing, even if it is taken for a proof.
+#[test]
+fn only_a_motion_that_nothing_stops_and_that_proves_it_is_a_recession() {
+    let problem = body();
+    let contact = Contact::new(&problem);
+    for length in [1.0, 2.0_f64.powi(30), 2.0_f64.powi(-30)] {
+        for (by, proves, expected) in [
+            (-length, true, true),
+            (-length, false, false),
+            (length, true, false),
+            (length, false, false),
+        ] {
+            let motion = along_normals(by);
+            let motions = RigidMotions::along(&problem, &motion);
+            // A motion that is turned away from the obstacles is another one, which is not taken for a proof.
+            let balance = Balance::of(&contact, motions, |r| proves && r[0] * by > 0.5 * by * by);
+            match balance.ending_away(&motion) {
+                Ending::Recession(_) => assert!(expected, "{by}, {proves}"),
+                Ending::RunsAway(_) => assert!(!expected, "{by}, {proves}"),
+                _ => panic!("{by}, {proves}: another ending"),
+            }
+        }
+    }
+}
+
+/// The pairs that a motion brings nearer to their obstacles are told, the one that comes nearest first; others are not.
+#[test]
+fn pairs_that_approach_are_told_in_order() {
+    let problem = body();
+    let contact = Contact::new(&problem);
+    let balance =
+        Balance::of(&contact, RigidMotions::along(&problem, &along_normals(1.0)), |_| true);
+    for (normals, expected) in [
+        ([1.0, -1.0, 2.0], vec![2, 0]),
+        ([-1.0, 0.5, 0.25], vec![1, 2]),
+        ([-1.0, 0.0, -2.0], vec![]),
+    ] {
+        // Units are diagonal entries, 1 at the ends and 2 in the middle.
+        let root = [1.0, 2.0_f64.sqrt(), 1.0];
+        let motion: Vec<f64> =
+            normals.iter().zip(root).flat_map(|(normal, root)| [normal / root, 0.0]).collect();
+        assert_eq!(balance.worst(&motion), expected, "{normals:?}");
+    }
+}
+
+/// Equations of whole numbers that have a solution are solved by it, in whatever units the unknowns are, and an unknown that
+/// none of them has is 0. A determinant of columns of length 1 below .1 is not tried: it multiplies the rounding.
+#[test]
+fn least_squares_solve_what_can_be_solved() {
+    let rng = &mut Rng::with_seed(1);
+    let mut tried = 0;
+    while tried < 100 {
+        let rows: Vec<[f64; 2]> =
+            (0..3).map(|_| [(); 2].map(|()| f64::from(rng.i32(-9..=9)))).collect();
+        let product = |i: usize, j: usize| rows.iter().map(|row| row[i] * row[j]).sum::<f64>();
+        let determinant = product(0, 0) * product(1, 1) - product(0, 1).powi(2);
+        if !(determinant > 0.1 * product(0, 0) * product(1, 1)) {
+            continue;
+        }
+        tried += 1;
+        let exact = [f64::from(rng.i32(-9..=9)), f64::from(rng.i32(-9..=9))];
+        let units = [2.0_f64.powi(rng.i32(-20..=20)), 2.0_f64.powi(rng.i32(-20..=20))];
+        let equations: Vec<(Vec<f64>, f64)> = rows
+            .iter()
+            .map(|row| {
+                let right = row[0] * exact[0] + row[1] * exact[1];
+                (vec![row[0] * units[0], row[1] * units[1], 0.0], right)
+            })
+            .collect();
+        let x = least_squares(&equations, 3).expect("enough memory");
+        for i in 0..2 {
+            let error = (x[i] * units[i] - exact[i]).abs();
+            assert!(error <= 1e-12, "{rows:?}: {x:?}, {exact:?}, {units:?}");
+        }
+        assert_eq!(x[2], 0.0);
+    }
+}
