@@ -10,6 +10,7 @@ mod boundaries;
 mod by_pair;
 mod friction_laws;
 mod pieces;
+mod remarks;
 mod rounding;
 mod statement;
 mod ties;
