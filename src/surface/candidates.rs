@@ -56,7 +56,7 @@ impl<'a> SearchFaces<'a> {
             watch.goes_on()?;
             normals.push(middle_normal(&side.face(face)));
         }
-        Ok(SearchFaces { tree: Tree::new(side, watch)?, normals })
+        Ok(SearchFaces { tree: Tree::new(side), normals })
     }
 }
 

@@ -67,6 +67,14 @@ impl<'a> Side<'a> {
         Face { kind: self.kind(nodes), nodes, x, is_ring: self.is_axisymmetric }
     }
 
+    /// The same faces with the nodes at other places.
+    pub(super) fn moved<'b>(&self, coordinates: &'b [f64]) -> Side<'b>
+    where
+        'a: 'b,
+    {
+        Side { coordinates, ..*self }
+    }
+
     /// Place of a node, in the unit of the pairing.
     pub(super) fn position(&self, node: usize) -> Vector3 {
         self.scale * vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])

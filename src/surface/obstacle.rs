@@ -54,7 +54,7 @@ pub fn pair_with_obstacle(
     let reach = side.inside(search_distance.unwrap_or(f64::INFINITY));
     let planes = OnPlanes::new(&side, dim, (&settings.symmetry, axisymmetric))?;
     watch.expects(side.count());
-    self_overlap::check(&side, &SearchFaces::new(&side, watch)?, (dim, reach), watch)?;
+    self_overlap::check(&side, &mut SearchFaces::new(&side, watch)?, (dim, reach), watch)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let Some(met) = obstacle.facing(side.position(node)) else {

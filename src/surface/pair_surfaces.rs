@@ -53,12 +53,13 @@ pub(super) fn pair_sides(
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
     let planes = OnPlanes::new(&slave, dim, (&settings.symmetry, settings.axisymmetric))?;
-    let (own, opposite) = (SearchFaces::new(&slave, watch)?, SearchFaces::new(&master, watch)?);
+    let mut own = SearchFaces::new(&slave, watch)?;
+    let mut opposite = SearchFaces::new(&master, watch)?;
     let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings);
     watch.expects(2 * slave.count() + master.count());
-    self_overlap::check(&slave, &own, (dim, reach.overlap), watch)?;
+    self_overlap::check(&slave, &mut own, (dim, reach.overlap), watch)?;
     if settings.pairing == Pairing::DualMortar {
-        self_overlap::check(&master, &opposite, (dim, reach.overlap), watch)?;
+        self_overlap::check(&master, &mut opposite, (dim, reach.overlap), watch)?;
     }
     let candidates = Candidates::new(opposite, reach, span);
     let sides = [&slave, &master];

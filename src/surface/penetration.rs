@@ -33,8 +33,7 @@ const LEAST_OF_PAIRED: f64 = 0.1;
 enum Opposite {
     /// Faces that move, or a rigid mesh with coordinates of its own.
     Faces {
-        start: Vec<usize>,
-        nodes: Vec<usize>,
+        lists: [Vec<usize>; 2],
         rigid: Option<Vec<f64>>,
     },
     Shape(Obstacle),
@@ -70,8 +69,9 @@ pub struct Penetration {
 
 /// What pairs hold, and the slave faces that they do not hold wholly.
 struct Held {
-    nodes: HashSet<usize>,
-    uncovered: HashSet<usize>,
+    /// By place of the node.
+    nodes: Vec<bool>,
+    uncovered: Vec<bool>,
     asked: Vec<usize>,
 }
 
@@ -93,16 +93,17 @@ impl KeptSurfaces {
         let mut nodes = [slave.nodes, master.nodes].concat();
         nodes.sort_unstable();
         nodes.dedup();
-        let place = |node: &usize| nodes.binary_search(node).unwrap_or_default();
-        let places =
-            |faces: Faces<'_>| [faces.start.to_vec(), faces.nodes.iter().map(place).collect()];
-        let [start, of_master] = places(master);
+        let mut places = vec![0; nodes.last().map_or(0, |last| last + 1)];
+        nodes.iter().enumerate().for_each(|(place, &node)| places[node] = place);
+        let lists = |faces: Faces<'_>| {
+            [faces.start.to_vec(), faces.nodes.iter().map(|&node| places[node]).collect()]
+        };
         let kept = |node: &usize| coordinates[dim * node..dim * (node + 1)].to_vec();
         KeptSurfaces {
             dim,
-            slave: places(slave),
+            slave: lists(slave),
             coordinates: nodes.iter().flat_map(kept).collect(),
-            opposite: Opposite::Faces { start, nodes: of_master, rigid: None },
+            opposite: Opposite::Faces { lists: lists(master), rigid: None },
             nodes,
         }
     }
@@ -113,8 +114,8 @@ impl KeptSurfaces {
         slave: Faces<'_>,
         (rigid, faces): (&[f64], Faces<'_>),
     ) -> KeptSurfaces {
-        let (start, nodes) = (faces.start.to_vec(), faces.nodes.to_vec());
-        let opposite = Opposite::Faces { start, nodes, rigid: Some(rigid.to_vec()) };
+        let lists = [faces.start.to_vec(), faces.nodes.to_vec()];
+        let opposite = Opposite::Faces { lists, rigid: Some(rigid.to_vec()) };
         KeptSurfaces { opposite, ..KeptSurfaces::new(host, slave, NONE) }
     }
 
@@ -143,7 +144,8 @@ impl KeptSurfaces {
         }
         let watch = &mut Watch::new(monitor);
         let held = &self.held(pairs);
-        let slaves = self.sides("slave", &moved, &self.slave)?;
+        let slave = self.side("slave", &self.coordinates, &self.slave)?;
+        let slaves = [slave.moved(&self.coordinates), slave.moved(&moved)];
         match &self.opposite {
             Opposite::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
@@ -154,19 +156,17 @@ impl KeptSurfaces {
                     (depths[0] <= asked.least).then_some((depths[1], None))
                 })
             }
-            Opposite::Faces { start, nodes, rigid } => {
-                let faces = [start.clone(), nodes.clone()];
-                let masters = match rigid {
-                    None => self.sides("master", &moved, &faces)?,
-                    Some(rigid) => [
-                        self.side("obstacle", rigid, &faces)?,
-                        self.side("obstacle", rigid, &faces)?,
-                    ],
-                };
-                match held.asked.is_empty() {
-                    true => Ok(Penetration::default()),
-                    false => self.through_faces(held, [&slaves, &masters], watch),
+            Opposite::Faces { lists, rigid } => {
+                if held.asked.is_empty() {
+                    return Ok(Penetration::default());
                 }
+                let (name, [before, after]) = match rigid {
+                    None => ("master", [&self.coordinates, &moved]),
+                    Some(rigid) => ("obstacle", [rigid, rigid]),
+                };
+                let master = self.side(name, before, lists)?;
+                let masters = [master.moved(before), master.moved(after)];
+                self.through_faces(held, [&slaves, &masters], watch)
             }
         }
     }
@@ -180,27 +180,21 @@ impl KeptSurfaces {
         Side::new(name, Argument::Coordinates, (self.dim, x), Faces { start, nodes })
     }
 
-    /// A side before and after the motion.
-    fn sides<'s>(
-        &'s self,
-        name: &'static str,
-        moved: &'s [f64],
-        faces: &'s [Vec<usize>; 2],
-    ) -> Result<[Side<'s>; 2], Error> {
-        Ok([self.side(name, &self.coordinates, faces)?, self.side(name, moved, faces)?])
-    }
-
     fn held(&self, pairs: &SurfacePairs) -> Held {
-        let slaves = pairs.pairs.iter().map(|pair| pair.slave);
-        let nodes: HashSet<usize> =
-            slaves.chain(pairs.report.folded.iter().map(|fold| fold.node)).collect();
-        let uncovered: HashSet<usize> = pairs.report.uncovered_faces.iter().copied().collect();
         let [start, places] = &self.slave;
-        let is_held = |place: &usize| nodes.contains(&self.nodes[*place]);
+        let (mut nodes, mut uncovered) =
+            (vec![false; self.nodes.len()], vec![false; start.len() - 1]);
+        let folded = pairs.report.folded.iter().map(|fold| fold.node);
+        for node in pairs.pairs.iter().map(|pair| pair.slave).chain(folded) {
+            let place = self.nodes.binary_search(&node);
+            place.into_iter().for_each(|place| nodes[place] = true);
+        }
+        pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
         let of_pairs = |at: &usize| {
-            !uncovered.contains(at) && places[start[*at]..start[at + 1]].iter().all(is_held)
+            let mut places = places[start[*at]..start[at + 1]].iter();
+            !uncovered[*at] && places.all(|&place| nodes[place])
         };
-        let asked = (0..start.len() - 1).filter(|at| !of_pairs(at)).collect();
+        let asked = (0..uncovered.len()).filter(|at| !of_pairs(at)).collect();
         Held { nodes, uncovered, asked }
     }
 
@@ -211,12 +205,9 @@ impl KeptSurfaces {
         watch: &mut Watch<'_, '_>,
     ) -> Result<Penetration, Error> {
         let opposite = SearchFaces::new(after, watch)?;
-        let around = |side: &Side<'_>| {
-            let faces = (0..side.count()).map(|at| Hull::of(&side.face(at)).bounds());
-            faces.reduce(|a, b| a.with(&b))
-        };
-        let bounds = [around(&slaves[1]), opposite.tree.bounds()].into_iter().flatten();
-        let span = bounds.reduce(|a, b| a.with(&b)).map_or(0.0, |all| all.diagonal());
+        let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
+        let bounds = asked.chain(opposite.tree.bounds()).reduce(|a, b| a.with(&b));
+        let span = bounds.map_or(0.0, |all| all.diagonal());
         let reach = Reach { overlap: span, open: 0.0, layer: span };
         let mut candidates = Candidates::new(opposite, reach, span);
         self.deepest(held, slaves, watch, |[first, face], asked| {
@@ -247,12 +238,13 @@ impl KeptSurfaces {
             watch.goes_on()?;
             let faces = [before.face(at), after.face(at)];
             let size = faces[0].size();
-            let nodes = || faces[0].nodes.iter().map(|&place| self.nodes[place]);
-            let covered = !held.uncovered.contains(&at);
-            let face_is_held = covered && nodes().any(|node| held.nodes.contains(&node));
-            let places = faces[0].kind.places().iter().copied().zip(nodes().map(Some));
-            for (local, node) in places.chain([(faces[0].kind.centre(), None)]) {
-                let is_held = node.map_or(face_is_held, |node| held.nodes.contains(&node));
+            let nodes = faces[0].nodes;
+            let is_held = |place: &usize| held.nodes[*place];
+            let face_is_held = !held.uncovered[at] && nodes.iter().any(is_held);
+            let places = faces[0].kind.places().iter().copied().zip(nodes.iter().map(Some));
+            for (local, place) in places.chain([(faces[0].kind.centre(), None)]) {
+                let is_held = place.map_or(face_is_held, is_held);
+                let node = place.map(|&place| self.nodes[place]);
                 let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
                 let normal = unit(faces[0].outward(local)).unwrap_or_default();
                 let asked = Asked { at: local, normal, least };

@@ -88,7 +88,7 @@ fn unit_values() -> impl Iterator<Item = Values> {
 
 /// Sums the weights of each node and divides them.
 pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
-    weights.sort_by_key(|(node, _)| *node);
+    weights.sort_unstable_by_key(|(node, _)| *node);
     let mut sums: Vec<Weight> = Vec::new();
     for (node, weight) in weights {
         match sums.last_mut() {

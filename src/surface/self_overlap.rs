@@ -27,7 +27,7 @@ const COMMON: f64 = 0.05;
 /// The two faces, and the share that is common; what ends the watch.
 pub(super) fn check(
     side: &Side<'_>,
-    SearchFaces { tree, normals }: &SearchFaces<'_>,
+    SearchFaces { tree, normals }: &mut SearchFaces<'_>,
     (dim, reach): (usize, f64),
     watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {
@@ -51,7 +51,8 @@ pub(super) fn check(
             // Faces that cannot be projected on each other do not lie upon each other.
             let common = in_plane.overlap(&second, is_upon, &mut overlaps);
             overlaps.points.clear();
-            let share = common.map_or(0.0, |part| in_plane.of_smaller(part.share, &second));
+            let share = common.map_or(0.0, |part| part.share);
+            let share = if share > 0.0 { in_plane.of_smaller(share, &second) } else { 0.0 };
             if share > COMMON {
                 return Err(upon(side, (at, other), share));
             }

@@ -2,6 +2,7 @@
 //! walls.
 
 use super::face::Face;
+use super::plane::tangents;
 use crate::linalg::vector3::Vector3;
 
 /// Faces that have less than this in common, beside their largest coordinate, have nothing: rounding of the places
@@ -31,6 +32,16 @@ impl Bounds {
     /// The distance between opposite corners.
     pub(super) fn diagonal(&self) -> f64 {
         (self.high - self.low).norm()
+    }
+
+    /// How far it reaches along a direction, times the length of that.
+    pub(super) fn most(&self, along: &Vector3) -> f64 {
+        let [middle, half] = self.middle_and_half();
+        along.dot(&middle) + along.abs().dot(&half)
+    }
+
+    fn middle_and_half(&self) -> [Vector3; 2] {
+        [0.5 * (self.low + self.high), 0.5 * (self.high - self.low)]
     }
 
     pub(super) fn with(&self, other: &Bounds) -> Bounds {
@@ -105,7 +116,7 @@ impl<'a> Sweep<'a> {
         beyond: f64,
     ) -> Sweep<'a> {
         let hull = Hull { points: std::slice::from_ref(point), margin: 0.0 };
-        Sweep::new(hull, (normal, Vector3::zeros()), reach, beyond)
+        Sweep::new(hull, (normal, tangents(3, normal)[0]), reach, beyond)
     }
 
     fn new(
@@ -124,25 +135,24 @@ impl<'a> Sweep<'a> {
         ];
         let bounds = Bounds::of(ends.into_iter());
         let largest = bounds.low.abs().sup(&bounds.high.abs()).amax();
-        let margin = Vector3::repeat((touch * largest).max(0.0));
+        let beyond = (touch * largest).max(0.0);
+        let margin = Vector3::repeat(beyond);
         let bounds = Bounds { low: bounds.low - margin, high: bounds.high + margin };
         let along = along - normal.dot(&along) * normal;
         let across = [along, normal.cross(&along)].map(|v| {
             let v = v.try_normalize(0.0).unwrap_or_default();
-            (v, -hull.most(&-v), hull.most(&v))
+            (v, -hull.most(&-v) - beyond, hull.most(&v) + beyond)
         });
         Sweep { hull, normal, reach, bounds, across, touch: touch * largest }
     }
 
-    /// `false` if nothing of a box with two walls is met.
-    pub(super) fn meets(&self, bounds: &Bounds, walls: &[Wall; 2]) -> bool {
-        self.bounds.meets(bounds)
-            && self.is_across(bounds)
-            && walls.iter().all(|wall| self.passes(wall))
+    /// `false` if nothing of a box is met.
+    pub(super) fn meets(&self, bounds: &Bounds) -> bool {
+        self.bounds.meets(bounds) && self.is_across(bounds)
     }
 
     fn is_across(&self, bounds: &Bounds) -> bool {
-        let (middle, half) = (0.5 * (bounds.low + bounds.high), 0.5 * (bounds.high - bounds.low));
+        let [middle, half] = bounds.middle_and_half();
         self.across.iter().all(|(along, low, high)| {
             let (at, size) = (along.dot(&middle), along.abs().dot(&half));
             at - size <= *high && at + size >= *low
@@ -150,7 +160,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// `false` if all of it lies behind the wall.
-    fn passes(&self, wall: &Wall) -> bool {
+    pub(super) fn passes(&self, wall: &Wall) -> bool {
         if wall.along == Vector3::zeros() {
             return true;
         }

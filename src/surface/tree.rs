@@ -1,18 +1,16 @@
 //! Which faces are near another one: a tree of boxes, each with two walls.
 //!
-//! Each branch halves its faces at the median of their middles along the axis that these differ along most, so
-//! building costs `n log n`, and a question costs the branches on the way to its answer. Boxes along the axes
+//! Each branch halves its faces at the median of their middles along the axis that these differ along most, when a question
+//! comes to it first: all questions cost `n log n`, and few of them little more than the boxes. Boxes along the axes
 //! say little of slivers and needles: all that lean, or that meet in a point, have boxes over each other. So a branch
-//! has two walls besides, lines of its own faces' edges that it does not reach beyond.
+//! has two walls besides, along edges of its own faces, that it does not reach beyond.
 
 use super::face::Face;
 use super::mesh::Side;
 use super::sweep::{Bounds, Hull, Sweep, Wall};
-use super::watch::Watch;
-use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
-/// Most faces of a leaf.
+/// Most faces of a leaf, and number of those whose edges walls may follow.
 const LEAF: usize = 4;
 
 /// The second wall of a branch looks another way than the first: the cosine between them is below this.
@@ -21,11 +19,27 @@ const OTHER_WAY: f64 = 0.5;
 #[derive(Debug)]
 struct Branch {
     bounds: Bounds,
-    walls: [Wall; 2],
     /// Range in `order`.
     faces: std::ops::Range<usize>,
+    /// What is behind its box; `None`: no question has come to it.
+    inside: Option<Inside>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Inside {
+    walls: [Wall; 2],
     /// The two halves; `None`: a leaf.
     halves: Option<[usize; 2]>,
+}
+
+/// A wall along an edge that is moved out to hold faces.
+#[derive(Clone, Copy, Debug)]
+struct Held {
+    edge: Wall,
+    most: f64,
+    furthest: usize,
+    /// How much longer the edge is than the way out.
+    worth: f64,
 }
 
 /// The faces of a side.
@@ -38,20 +52,15 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    /// # Errors
-    /// What ends the watch.
-    pub(super) fn new(side: &'a Side<'a>, watch: &mut Watch<'_, '_>) -> Result<Tree<'a>, Error> {
-        let mut boxes: Vec<Bounds> = Vec::with_capacity(side.count());
-        for at in 0..side.count() {
-            watch.goes_on()?;
-            boxes.push(Hull::of(&side.face(at)).bounds());
-        }
-        let order = (0..boxes.len()).collect();
+    pub(super) fn new(side: &'a Side<'a>) -> Tree<'a> {
+        let count = side.count();
+        let boxes = (0..count).map(|at| Hull::of(&side.face(at)).bounds()).collect();
+        let order = (0..count).collect();
         let mut tree = Tree { side, boxes, order, branches: Vec::new() };
-        if !tree.boxes.is_empty() {
-            tree.branch(0..tree.boxes.len(), watch)?;
+        if count > 0 {
+            tree.grow(0..count);
         }
-        Ok(tree)
+        tree
     }
 
     /// The box of all faces; `None` if there are none.
@@ -59,81 +68,76 @@ impl<'a> Tree<'a> {
         self.branches.first().map(|branch| branch.bounds)
     }
 
-    /// Builds the branch of a range and returns its place.
-    fn branch(
-        &mut self,
-        faces: std::ops::Range<usize>,
-        watch: &mut Watch<'_, '_>,
-    ) -> Result<usize, Error> {
-        watch.goes_on()?;
-        let boxes = &self.boxes;
-        let part = &mut self.order[faces.clone()];
-        let bounds =
-            part.iter().map(|&face| boxes[face]).reduce(|a, b| a.with(&b)).expect("not empty");
-        let place = self.branches.len();
-        let middle = |face: usize| 0.5 * (boxes[face].low + boxes[face].high);
-        let middles = Bounds::of(part.iter().map(|&face| middle(face)));
-        let axis = (middles.high - middles.low).imax();
-        let half = part.len() / 2;
-        let split = part.len() > LEAF;
-        if split {
-            let middle = |face: usize| middle(face)[axis];
-            part.select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)));
-        }
-        let walls = Default::default();
-        self.branches.push(Branch { bounds, walls, faces: faces.clone(), halves: None });
-        let walls = if split {
-            let middle = faces.start + half;
-            let first = self.branch(faces.start..middle, watch)?;
-            let halves = [first, self.branch(middle..faces.end, watch)?];
-            self.branches[place].halves = Some(halves);
-            halves.iter().flat_map(|&half| self.branches[half].walls).collect()
-        } else {
-            self.order[faces.clone()].iter().flat_map(|&at| edges(&self.side.face(at))).collect()
-        };
-        self.branches[place].walls = self.walls(faces, walls, watch)?;
-        Ok(place)
+    /// Adds the branch of a range, and returns its place.
+    fn grow(&mut self, faces: std::ops::Range<usize>) -> usize {
+        let boxes = self.order[faces.clone()].iter().map(|&face| self.boxes[face]);
+        let bounds = boxes.reduce(|a, b| a.with(&b)).expect("not empty");
+        self.branches.push(Branch { bounds, faces, inside: None });
+        self.branches.len() - 1
     }
 
-    /// The two walls of a branch: of those given, whose lengths are the sizes of their edges, the long ones that the branch
-    /// reaches beyond least.
-    fn walls(
-        &self,
-        faces: std::ops::Range<usize>,
-        mut given: Vec<Wall>,
-        watch: &mut Watch<'_, '_>,
-    ) -> Result<[Wall; 2], Error> {
-        given.retain(|wall| wall.along != Vector3::zeros());
-        let mut worth = vec![0.0; given.len()];
-        let before: Vec<f64> = given.iter().map(|wall| wall.most).collect();
-        for &at in &self.order[faces] {
-            watch.goes_on()?;
-            let face = self.side.face(at);
-            let hull = Hull::of(&face);
-            for wall in &mut given {
-                wall.most = wall.most.max(hull.most(&wall.along));
-            }
-        }
-        for ((worth, wall), before) in worth.iter_mut().zip(&given).zip(before) {
-            // A wall is as long as its edge: heights along it are lengths times that.
-            let length = wall.along.norm();
-            *worth = length - (wall.most - before) / length;
-        }
+    /// Looks behind the box of a branch for the first time.
+    fn open(&mut self, place: usize) -> Inside {
+        let faces = self.branches[place].faces.clone();
+        let walls = self.walls(&self.order[faces.clone()]);
+        let halves = (faces.len() > LEAF).then(|| {
+            let boxes = &self.boxes;
+            let part = &mut self.order[faces.clone()];
+            let middle = |face: usize| 0.5 * (boxes[face].low + boxes[face].high);
+            let middles = Bounds::of(part.iter().map(|&face| middle(face)));
+            let axis = (middles.high - middles.low).imax();
+            let half = part.len() / 2;
+            let along = |face: usize| boxes[face].low[axis] + boxes[face].high[axis];
+            part.select_nth_unstable_by(half, |&a, &b| along(a).total_cmp(&along(b)));
+            let middle = faces.start + half;
+            [faces.start..middle, middle..faces.end].map(|half| self.grow(half))
+        });
+        let inside = Inside { walls, halves };
+        self.branches[place].inside = Some(inside);
+        inside
+    }
+
+    /// The two walls of faces: of the edges of some of them, whose lengths are their sizes, that beyond which these reach least,
+    /// or the like edge of the face which stands out furthest; none where faces reach further than the edge is long.
+    fn walls(&self, faces: &[usize]) -> [Wall; 2] {
+        let some: Vec<usize> = faces.iter().step_by(faces.len().div_ceil(LEAF)).copied().collect();
+        let of_some = some.iter().flat_map(|&at| edges(&self.side.face(at)));
+        let of_some: Vec<Held> = of_some.map(|edge| self.hold(edge, &some)).collect();
         let best = |other: Vector3| {
             let looks_away = |wall: &Wall| {
                 wall.along.dot(&other) <= OTHER_WAY * wall.along.norm() * other.norm()
             };
-            let found = worth.iter().zip(&given).filter(|(_, wall)| looks_away(wall));
-            let found = found.max_by(|a, b| a.0.total_cmp(b.0));
-            found.map_or_else(Wall::default, |(_, wall)| *wall)
+            let order = |a: &&Held, b: &&Held| a.worth.total_cmp(&b.worth);
+            let away = of_some.iter().filter(|held| looks_away(&held.edge));
+            let first = self.hold(away.max_by(order)?.edge, faces);
+            let outermost = edges(&self.side.face(first.furthest)).into_iter().filter(looks_away);
+            let cos = |wall: &Wall| wall.along.dot(&first.edge.along) / wall.along.norm();
+            let like = outermost.max_by(|a, b| cos(a).total_cmp(&cos(b)));
+            let second = like.map(|edge| self.hold(edge, faces));
+            let held = [Some(&first), second.as_ref()].into_iter().flatten().max_by(order)?;
+            (held.worth > 0.0).then_some(Wall { most: held.most, ..held.edge })
         };
-        let first = best(Vector3::zeros());
-        Ok([first, best(first.along)])
+        let first = best(Vector3::zeros()).unwrap_or_default();
+        [first, best(first.along).unwrap_or_default()]
+    }
+
+    /// Moves the wall of an edge out until it holds faces.
+    fn hold(&self, edge: Wall, faces: &[usize]) -> Held {
+        let (mut most, mut furthest) = (edge.most, faces[0]);
+        for &at in faces {
+            if self.boxes[at].most(&edge.along) > most {
+                let reaches = Hull::of(&self.side.face(at)).most(&edge.along);
+                (most, furthest) = if reaches > most { (reaches, at) } else { (most, furthest) };
+            }
+        }
+        // A wall is as long as its edge: heights along it are lengths times that.
+        let length = edge.along.norm();
+        Held { edge, most, furthest, worth: length - (most - edge.most) / length }
     }
 
     /// Collects the faces that a sweep may meet, in ascending order, and returns how many boxes
     /// were looked at.
-    pub(super) fn near(&self, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
+    pub(super) fn near(&mut self, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
         found.clear();
         let looked = if self.branches.is_empty() { 0 } else { self.collect(0, sweep, found) };
         found.sort_unstable();
@@ -141,15 +145,18 @@ impl<'a> Tree<'a> {
     }
 
     /// Collects the faces of one branch, in any order.
-    fn collect(&self, place: usize, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
+    fn collect(&mut self, place: usize, sweep: &Sweep<'_>, found: &mut Vec<usize>) -> usize {
         let branch = &self.branches[place];
-        if !sweep.meets(&branch.bounds, &branch.walls) {
+        if !sweep.meets(&branch.bounds) {
             return 1;
         }
-        let Some(halves) = branch.halves else {
-            let faces = &self.order[branch.faces.clone()];
-            let none = Default::default();
-            found.extend(faces.iter().filter(|&&face| sweep.meets(&self.boxes[face], &none)));
+        let Inside { walls, halves } = branch.inside.unwrap_or_else(|| self.open(place));
+        if !walls.iter().all(|wall| sweep.passes(wall)) {
+            return 1;
+        }
+        let Some(halves) = halves else {
+            let faces = &self.order[self.branches[place].faces.clone()];
+            found.extend(faces.iter().filter(|&&face| sweep.meets(&self.boxes[face])));
             return 1 + faces.len();
         };
         1 + halves.map(|half| self.collect(half, sweep, found)).iter().sum::<usize>()
@@ -166,5 +173,5 @@ fn edges(face: &Face<'_>) -> Vec<Wall> {
         let along = (face.x[(i + 1) % corners] - face.x[i]).cross(&normal);
         Wall { along, most: along.dot(&face.x[i]) }
     };
-    (0..corners).map(wall).collect()
+    (0..corners).map(wall).filter(|wall| wall.along != Vector3::zeros()).collect()
 }
