@@ -57,7 +57,8 @@ impl Bilinear {
     /// then `2 (1 + b s)` or `2 (1 + a t)`, positive in a convex face: nothing cancels, whatever the bend.
     pub(super) fn local(&self, p: Point) -> Option<Local> {
         let from = [p[0] - self.x[0][0], p[1] - self.x[1][0]];
-        let [s, t] = self.inverse.map(|row| row[0] * from[0] + row[1] * from[1]);
+        let [[a, b], [c, d]] = self.inverse;
+        let (s, t) = (a * from[0] + b * from[1], c * from[0] + d * from[1]);
         let (along, across) = (self.bend[0] * t, self.bend[1] * s);
         let skew = across - along;
         let square = (1.0 + skew) * (1.0 + skew) + 4.0 * along;
@@ -74,11 +75,12 @@ impl Bilinear {
         c0 + c1 * s + (c2 + c3 * s) * t
     }
 
-    /// Derivatives by the local coordinates.
-    pub(super) fn derivatives(&self, [s, t]: Local) -> [Vector3; 2] {
+    /// The place, and derivatives by the local coordinates.
+    pub(super) fn at(&self, [s, t]: Local) -> [Vector3; 3] {
+        let place = self.x.map(|[c0, c1, c2, c3]| c0 + c1 * s + (c2 + c3 * s) * t);
         let along = self.x.map(|[_, c1, _, c3]| c1 + c3 * t);
         let across = self.x.map(|[_, _, c2, c3]| c2 + c3 * s);
-        [along.into(), across.into()]
+        [place, along, across].map(Vector3::from)
     }
 
     /// How much the area of a unit of local coordinates changes from the middle to a corner, relative to that

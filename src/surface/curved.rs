@@ -80,10 +80,10 @@ impl Curved {
 
     /// Compares derivatives at the corners with those in the middle.
     fn measure(&mut self, kind: FaceKind) {
-        let [a, b] = self.derivatives(kind.centre());
+        let [_, a, b] = self.at(kind.centre());
         let area = a.cross(&b).z;
         for &corner in &kind.places()[..kind.corners()] {
-            let [c, d] = self.derivatives(corner);
+            let [_, c, d] = self.at(corner);
             let (e, f) = (c - a, d - b);
             let steps = [e.cross(&b).z, a.cross(&e).z, f.cross(&b).z, a.cross(&f).z];
             let [es, et, fs, ft] = steps.map(|step| (step / area).abs());
@@ -105,11 +105,9 @@ impl Curved {
             let [x, a, b] = evaluate(&self.x[0], at);
             let [y, c, d] = evaluate(&self.x[1], at);
             let from = [x - p[0], y - p[1]];
-            let determinant = a * d - b * c;
-            let step = [
-                (from[0] * d - b * from[1]) / determinant,
-                (a * from[1] - from[0] * c) / determinant,
-            ];
+            let inverse = 1.0 / (a * d - b * c);
+            let step =
+                [(from[0] * d - b * from[1]) * inverse, (a * from[1] - from[0] * c) * inverse];
             at = [at[0] - step[0], at[1] - step[1]];
             // What remains is of the order of its square, by the change of the derivatives.
             let length = step[0].abs().max(step[1].abs());
@@ -120,20 +118,16 @@ impl Curved {
         None
     }
 
-    /// The place in the plane.
-    pub(super) fn place(&self, at: Local) -> Point {
-        [evaluate(&self.x[0], at)[0], evaluate(&self.x[1], at)[0]]
-    }
-
     /// The height above the plane.
     pub(super) fn height(&self, at: Local) -> f64 {
         evaluate(&self.x[2], at)[0]
     }
 
-    /// Derivatives by the local coordinates.
-    pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
-        let [x, y, z] = [0, 1, 2].map(|c| evaluate(&self.x[c], at));
-        [Vector3::new(x[1], y[1], z[1]), Vector3::new(x[2], y[2], z[2])]
+    /// The place, and derivatives by the local coordinates.
+    pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
+        let [x, y, z] = &self.x;
+        let [x, y, z] = [evaluate(x, at), evaluate(y, at), evaluate(z, at)];
+        std::array::from_fn(|c| Vector3::new(x[c], y[c], z[c]))
     }
 
     /// As [`Bilinear::distortion`]: the inverse of `s + e s² / 2` is analytic up to the distance `1 / 2 e` from the
@@ -176,7 +170,7 @@ mod tests {
                 assert!((0..2).all(|c| (found[c] - at[c]).abs() < 1e-14), "{kind:?}: {found:?}");
                 assert!((curved.height(at) - place.z).abs() < 1e-15, "{kind:?}");
                 let along = if kind.is_line() { 1 } else { 2 };
-                let both = face.derivatives(at).into_iter().zip(curved.derivatives(at));
+                let both = face.derivatives(at).into_iter().zip(curved.at(at).into_iter().skip(1));
                 for (exact, found) in both.take(along) {
                     let miss = (found - exact).norm();
                     assert!(miss < 1e-14, "{kind:?}: {miss:e}");

@@ -67,7 +67,6 @@ pub(super) fn pairs<'a>(
     for at in 0..slave.count() {
         watch.step()?;
         let face = slave.face(at);
-        report.slave_area += face.integrals().iter().sum::<f64>();
         let covered = cover([slave, master], (at, &face), (dim, planes), &mut search, watch)?;
         if covered.is_none() {
             report.uncovered_faces.push(at);
@@ -76,7 +75,7 @@ pub(super) fn pairs<'a>(
     }
     let Search { candidates, shapes, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;
-    let mut rows = rows(slave, &faces, planes, watch)?;
+    let mut rows = rows(slave, &faces, planes, (&mut report.slave_area, watch))?;
     if normals == Normals::Averaged {
         let averaged = slave.node_normals_on(planes, watch)?;
         rows.iter_mut().for_each(|(node, row)| row.normal = row.area * averaged[node]);
@@ -192,12 +191,12 @@ fn keep_nearest(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, layer:
     });
 }
 
-/// The rows of all nodes with cover, by node.
+/// The rows of all nodes with cover, by node. The areas of all faces are added to `slave_area`.
 fn rows(
     slave: &Side<'_>,
     faces: &[Option<CoveredFace>],
     planes: &OnPlanes,
-    watch: &mut Watch<'_, '_>,
+    (slave_area, watch): (&mut f64, &mut Watch<'_, '_>),
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let wholly = |at: usize, face: &Face<'_>| match &faces[at] {
         Some(covered) => covered.wholly,
@@ -216,6 +215,7 @@ fn rows(
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, *wholly);
             let integrals = [covered.integrals, face.integrals()];
+            *slave_area += integrals[1].iter().sum::<f64>();
             let on = (face.nodes, &basis);
             add_face(&mut rows, on, integrals, covered.weights(), (&at_nodes(&face), covered.gaps));
         }
@@ -224,7 +224,9 @@ fn rows(
         watch.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, wholly(at, &face));
-        let (whole, normal) = (basis.functions(face.integrals()), middle_normal(&face));
+        let (integrals, normal) = (face.integrals(), middle_normal(&face));
+        *slave_area += integrals.iter().sum::<f64>();
+        let whole = basis.functions(integrals);
         for (node, whole) in face.nodes.iter().zip(whole) {
             // Around a sharp edge faces look elsewhere, and the node has none of its contact there.
             let row = rows.get_mut(node);

@@ -5,7 +5,7 @@
 
 use super::clip::{Clipper, Point, measure, turn_left};
 use super::face::{Face, ON_EDGE};
-use super::plane::{Flat, MOST_SAG, Plane};
+use super::plane::{Flat, MOST_SAG, Plane, Polygon};
 use super::quadrature::MOST_POINTS;
 use super::shape::Local;
 use super::simple_parts::Rule;
@@ -83,7 +83,7 @@ impl<'a> SlaveFace<'a> {
             let places = &face.kind.places()[..face.kind.corners()];
             (places.to_vec(), Some(flat.around(AROUND)))
         } else {
-            (flat.outline().corners().to_vec(), None)
+            (Polygon::around(&flat.face).corners().to_vec(), None)
         };
         let area = measure(&outline);
         SlaveFace { plane, flat, outline, around, area, face: face.clone() }
@@ -99,9 +99,9 @@ impl<'a> SlaveFace<'a> {
         wanted: impl Fn(f64) -> bool,
         found: &mut Overlaps,
     ) -> Result<Part, NotFound> {
-        let flat = self.plane.flatten(master);
+        let seen = self.plane.project(master);
         let Overlaps { points, clipper, near, mapped } = found;
-        let window = flat.outline();
+        let window = Polygon::around(&seen);
         let common = match &self.around {
             None => clipper.common_part(window.corners(), &self.outline),
             Some(around) => {
@@ -115,7 +115,7 @@ impl<'a> SlaveFace<'a> {
             return Ok(Part::default());
         }
         let before = points.len();
-        let distance = self.add_points(&flat, common, points)?;
+        let distance = self.add_points(&Flat::new(seen), common, points)?;
         if !wanted(distance) {
             points.truncate(before);
             return Ok(Part::default());
@@ -125,8 +125,8 @@ impl<'a> SlaveFace<'a> {
 
     /// The share of the smaller of two faces that has the given share of this one.
     pub(super) fn of_smaller(&self, share: f64, other: &Face<'_>) -> f64 {
-        let area = |flat: &Flat<'_>| measure(flat.outline().corners());
-        let (own, other) = (area(&self.flat), area(&self.plane.flatten(other)));
+        let area = |face: &Face<'_>| measure(Polygon::around(face).corners());
+        let (own, other) = (area(&self.flat.face), area(&self.plane.project(other)));
         share * own / own.min(other)
     }
 
@@ -204,14 +204,13 @@ impl<'a> SlaveFace<'a> {
     ) -> Result<f64, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
         self.rule(master).on(common, |p, part| {
-            let (slave, place) = match self.around {
-                Some(_) => (p, self.flat.place(p)),
-                None => (self.flat.local(p).ok_or(NotFound)?, p),
-            };
-            let [unit, projected] = self.flat.unit_area(slave);
-            let area = part * if self.around.is_some() { unit } else { unit / projected };
-            let at = master.local(place).ok_or(NotFound)?;
-            distance += part * (master.height(at) - self.flat.height(slave));
+            let in_plane = self.around.is_none();
+            let slave = if in_plane { self.flat.local(p).ok_or(NotFound)? } else { p };
+            let [x, along, across] = self.flat.at(slave);
+            let normal = along.cross(&across);
+            let area = part * normal.norm() / if in_plane { normal.z.abs() } else { 1.0 };
+            let at = master.local(if in_plane { p } else { [x.x, x.y] }).ok_or(NotFound)?;
+            distance += part * (master.height(at) - x.z);
             whole += part;
             points.push(Meeting { slave, master: at, weight: area * self.face.around(slave) });
             Ok(())

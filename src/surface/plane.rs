@@ -33,16 +33,20 @@ impl Plane {
         Plane { origin, along: tangents(dim, normal), normal }
     }
 
-    /// Projects a face.
-    pub(super) fn flatten<'a>(&self, face: &Face<'a>) -> Flat<'a> {
+    /// A face in the axes of the plane, with heights above it.
+    pub(super) fn project<'a>(&self, face: &Face<'a>) -> Face<'a> {
         let mut seen = face.clone();
         for x in &mut seen.x[..face.kind.nodes()] {
             let from = *x - self.origin;
             let [along, across] = self.along.map(|along| along.dot(&from));
             *x = Vector3::new(along, across, self.normal.dot(&from));
         }
-        let curved = (!face.is_bilinear()).then(|| Curved::new(&seen));
-        Flat { corners: Bilinear::new(&seen), face: seen, curved }
+        seen
+    }
+
+    /// Projects a face.
+    pub(super) fn flatten<'a>(&self, face: &Face<'a>) -> Flat<'a> {
+        Flat::new(self.project(face))
     }
 }
 
@@ -53,7 +57,7 @@ const MOST_CORNERS: usize = 8;
 /// strip of two thirds of this counts for the neighbour, with it of a quarter of that.
 pub(super) const MOST_SAG: f64 = 5e-4;
 
-/// A projected outline.
+/// The outline of a projected face as a polygon that turns to the left, or an interval that ascends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polygon {
     corners: [Point; MOST_CORNERS],
@@ -61,6 +65,19 @@ pub(super) struct Polygon {
 }
 
 impl Polygon {
+    pub(super) fn around(face: &Face<'_>) -> Polygon {
+        let (kind, x) = (face.kind, &face.x);
+        let mut outline = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: 0 };
+        let mut mids = kind.mids().filter(|_| !kind.is_line());
+        for corner in 0..kind.corners() {
+            outline.push(x[corner]);
+            let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
+            mid.into_iter().for_each(|(mid, _)| outline.push(x[mid]));
+        }
+        clip::turn_left(&mut outline.corners[..outline.count]);
+        outline
+    }
+
     fn push(&mut self, corner: Vector3) {
         self.corners[self.count] = [corner.x, corner.y];
         self.count += 1;
@@ -82,31 +99,15 @@ pub(super) struct Flat<'a> {
     curved: Option<Curved>,
 }
 
-impl Flat<'_> {
-    /// The outline as a polygon that turns to the left, or an interval that ascends.
-    pub(super) fn outline(&self) -> Polygon {
-        let (kind, x) = (self.face.kind, &self.face.x);
-        let mut outline = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: 0 };
-        let mut mids = kind.mids().filter(|_| self.is_curved() && !kind.is_line());
-        for corner in 0..kind.corners() {
-            outline.push(x[corner]);
-            let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
-            mid.into_iter().for_each(|(mid, _)| outline.push(x[mid]));
-        }
-        clip::turn_left(&mut outline.corners[..outline.count]);
-        outline
+impl<'a> Flat<'a> {
+    /// The geometry of a projected face.
+    pub(super) fn new(face: Face<'a>) -> Flat<'a> {
+        let curved = (!face.is_bilinear()).then(|| Curved::new(&face));
+        Flat { corners: Bilinear::new(&face), face, curved }
     }
 
     pub(super) fn is_curved(&self) -> bool {
         self.curved.is_some()
-    }
-
-    /// The place in the plane of a point of a curved face.
-    pub(super) fn place(&self, at: Local) -> Point {
-        match &self.curved {
-            Some(curved) => curved.place(at),
-            None => [0, 1].map(|c| self.face.position(at)[c]),
-        }
     }
 
     /// As [`Self::local`], also beyond a curved face, on that which the corners span if there is no other.
@@ -175,14 +176,12 @@ impl Flat<'_> {
         kind.mids().map(|(mid, ends)| sag(x, mid, ends)).fold(0.0, f64::max)
     }
 
-    /// The area of a unit of local coordinates, and its projection.
-    pub(super) fn unit_area(&self, at: Local) -> [f64; 2] {
-        let [a, b] = match &self.curved {
-            Some(curved) => curved.derivatives(at),
-            None => self.corners.derivatives(at),
-        };
-        let normal = a.cross(&b);
-        [normal.norm(), normal.z.abs()]
+    /// The place in the axes of the plane, and derivatives by the local coordinates.
+    pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
+        match &self.curved {
+            Some(curved) => curved.at(at),
+            None => self.corners.at(at),
+        }
     }
 }
 

@@ -78,8 +78,10 @@ pub(super) struct Polynomials {
     at_points: Vec<f64>,
     /// `at_points` times the weights of the points.
     weighted: Vec<f64>,
-    /// The one that is made, at the points.
+    /// The one that is made, at the points, and times the weights of these.
     next: Vec<f64>,
+    next_weighted: Vec<f64>,
+    weights: Vec<f64>,
 }
 
 /// The sum of products.
@@ -108,12 +110,15 @@ fn add_products<const N: usize>(
 
 /// Middle and half width of the points along each local coordinate.
 fn centre_and_scale(points: &[Meeting]) -> [(f64, f64); 2] {
+    let [mut low, mut high] = [points[0].slave; 2];
+    for (point, c) in points.iter().flat_map(|point| [(point, 0), (point, 1)]) {
+        let at = point.slave[c];
+        low[c] = if at < low[c] { at } else { low[c] };
+        high[c] = if at > high[c] { at } else { high[c] };
+    }
     [0, 1].map(|c| {
-        let along = || points.iter().map(|point| point.slave[c]);
-        let low = along().fold(f64::INFINITY, f64::min);
-        let high = along().fold(f64::NEG_INFINITY, f64::max);
-        let half = 0.5 * (high - low);
-        (0.5 * (low + high), if half > 0.0 { half } else { 1.0 })
+        let half = 0.5 * (high[c] - low[c]);
+        (0.5 * (low[c] + high[c]), if half > 0.0 { half } else { 1.0 })
     })
 }
 
@@ -125,6 +130,8 @@ impl Polynomials {
         self.at_nodes.clear();
         self.at_points.clear();
         self.weighted.clear();
+        self.weights.clear();
+        self.weights.extend(points.iter().map(|point| point.weight));
         let [s, t] = centre_and_scale(points);
         for [i, j] in kind.exponents() {
             let monomial = |at: Local| {
@@ -136,17 +143,22 @@ impl Polynomials {
             self.next.extend(points.iter().map(|point| monomial(point.slave)));
             let mut at_nodes = [0.0; MOST_NODES];
             at_nodes.iter_mut().zip(kind.places()).for_each(|(p, &place)| *p = monomial(place));
-            self.add(at_nodes, points);
+            self.add(at_nodes);
         }
+    }
+
+    /// Weighs the one that is made, and returns its norm.
+    #[inline(always)]
+    fn weigh(&mut self) -> f64 {
+        self.next_weighted.clear();
+        self.next_weighted.extend(self.weights.iter().zip(&self.next).map(|(w, p)| w * p));
+        dot(&self.next_weighted, &self.next).sqrt()
     }
 
     /// Makes `next` orthonormal to what is there, and adds it.
     #[inline(always)]
-    fn add(&mut self, mut at_nodes: Values, points: &[Meeting]) {
-        let norm = |values: &[f64]| -> f64 {
-            values.iter().zip(points).map(|(p, point)| point.weight * p * p).sum::<f64>().sqrt()
-        };
-        let before = norm(&self.next);
+    fn add(&mut self, mut at_nodes: Values) {
+        let before = self.weigh();
         let mut left = before;
         for pass in 0..PASSES {
             if pass > 0 && left >= KEPT * before {
@@ -160,14 +172,13 @@ impl Polynomials {
                 let pairs = at_nodes.iter_mut().zip(other_at_nodes);
                 pairs.for_each(|(p, other)| *p -= part * other);
             }
-            left = norm(&self.next);
+            left = self.weigh();
         }
         if left > DEPENDENT * before {
             at_nodes.iter_mut().for_each(|p| *p /= left);
             self.at_nodes.push(at_nodes);
             self.at_points.extend(self.next.iter().map(|p| p / left));
-            let made = &self.at_points[self.weighted.len()..];
-            self.weighted.extend(made.iter().zip(points).map(|(p, point)| point.weight * p));
+            self.weighted.extend(self.next_weighted.iter().map(|p| p / left));
         }
     }
 
@@ -237,12 +248,13 @@ impl Polynomials {
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += point.weight * value);
         }
         let slaves = slave.nodes();
+        let most: usize = parts.iter().map(|opposite| opposite.nodes.len()).sum();
         let mut covered = Covered {
             integrals,
             slaves,
             gaps: [0.0; MOST_NODES],
-            masters: Vec::new(),
-            coefficients: Vec::new(),
+            masters: Vec::with_capacity(most),
+            coefficients: Vec::with_capacity(slaves * most),
         };
         for opposite in parts {
             self.add_moments(opposite, points, &mut covered);

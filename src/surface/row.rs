@@ -89,14 +89,13 @@ fn unit_values() -> impl Iterator<Item = Values> {
 /// Sums the weights of each node and divides them.
 pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
     weights.sort_unstable_by_key(|(node, _)| *node);
-    let mut sums: Vec<Weight> = Vec::new();
-    for (node, weight) in weights {
-        match sums.last_mut() {
-            Some((last, sum)) if *last == node => *sum += weight,
-            _ => sums.push((node, weight)),
-        }
-    }
-    sums.iter_mut().for_each(|(_, weight)| *weight /= area);
-    sums.retain(|(_, weight)| weight.abs() > ROUNDING);
-    sums
+    weights.dedup_by(|next, sum| {
+        let is_same = next.0 == sum.0;
+        sum.1 += if is_same { next.1 } else { 0.0 };
+        is_same
+    });
+    weights.iter_mut().for_each(|(_, weight)| *weight /= area);
+    weights.retain(|(_, weight)| weight.abs() > ROUNDING);
+    weights.shrink_to_fit();
+    weights
 }

@@ -153,24 +153,34 @@ impl FaceKind {
         match self {
             // Those that most meshes have, without their derivatives.
             T3 => values[..3].copy_from_slice(&[1.0 - s - t, s, t]),
-            Q4 => {
-                let [(a, b), (c, d)] = at.map(|s| (0.5 * (1.0 - s), 0.5 * (1.0 + s)));
-                values[..4].copy_from_slice(&[a * c, b * c, b * d, a * d]);
-            }
             T6 => {
-                let corners = [1.0 - s - t, s, t];
-                values[..3].copy_from_slice(&corners);
-                for (mid, [a, b]) in self.mids() {
-                    values[mid] = 4.0 * corners[a] * corners[b];
-                    [a, b].into_iter().for_each(|corner| values[corner] -= 0.5 * values[mid]);
+                let r = 1.0 - s - t;
+                let mids = [4.0 * r * s, 4.0 * s * t, 4.0 * t * r];
+                values[..3].copy_from_slice(&[r, s, t]);
+                values[3..6].copy_from_slice(&mids);
+            }
+            Q4 | Q8 => {
+                let (a, b, c, d) =
+                    (0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.5 * (1.0 - t), 0.5 * (1.0 + t));
+                values[..4].copy_from_slice(&[a * c, b * c, b * d, a * d]);
+                if self == Q8 {
+                    let (along, across) = (1.0 - s * s, 1.0 - t * t);
+                    let mids = [along * c, b * across, along * d, a * across];
+                    values[4..8].copy_from_slice(&mids);
                 }
             }
             Q9 => {
-                let [along, across] = at.map(|s| [0, 1, 2].map(|place| quadratic(s, place)[0]));
+                let on_line = |s| [quadratic(s, 0)[0], quadratic(s, 1)[0], quadratic(s, 2)[0]];
+                let (along, across) = (on_line(s), on_line(t));
                 let places = values.iter_mut().zip(&SIDES);
                 places.for_each(|(value, &[a, b])| *value = along[a] * across[b]);
             }
-            _ => values = self.functions(at).map(|[value, _, _]| value),
+            _ => return self.functions(at).map(|[value, _, _]| value),
+        }
+        if matches!(self, T6 | Q8) {
+            for (mid, corners) in self.mids() {
+                corners.into_iter().for_each(|corner| values[corner] -= 0.5 * values[mid]);
+            }
         }
         values
     }

@@ -52,11 +52,11 @@ impl Rule {
         let rule = quadrature::on_interval(self.points);
         for ([_, s, _], v) in rule {
             // From the side between `a` and `b` across to that between `d` and `c`.
-            let [from, to] = [[a, b], [d, c]].map(|[p, q]| between(p, q, *s));
+            let (from, to) = (between(a, b, *s), between(d, c, *s));
             let across = [to[0] - from[0], to[1] - from[1]];
             for ([_, t, _], w) in rule {
-                let along = [0, 1].map(|i| (1.0 - t) * (b[i] - a[i]) + t * (c[i] - d[i]));
-                let area = v * w * (along[0] * across[1] - along[1] * across[0]);
+                let along = |i: usize| (1.0 - t) * (b[i] - a[i]) + t * (c[i] - d[i]);
+                let area = v * w * (along(0) * across[1] - along(1) * across[0]);
                 add(between(from, to, *t), area)?;
             }
         }
@@ -66,7 +66,7 @@ impl Rule {
 
 /// The point at the share `s` of the way from `p` to `q`.
 fn between(p: Point, q: Point, s: f64) -> Point {
-    [0, 1].map(|i| p[i] + s * (q[i] - p[i]))
+    [p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])]
 }
 
 /// The four parts that the middles of its sides make of one.

@@ -165,8 +165,10 @@ impl<'a> Sweep<'a> {
             return true;
         }
         let moves = self.normal.dot(&wall.along);
-        let [back, forward] = self.reach.map(|reach| reach * moves);
-        let least = -self.hull.most(&-wall.along) + (-back).min(forward);
-        least < wall.most + self.touch * wall.along.norm()
+        let [back, forward] = self.reach;
+        let Hull { points, margin } = self.hull;
+        let most = wall.most + (self.touch + margin) * wall.along.norm();
+        let most = most - (-back * moves).min(forward * moves);
+        points.iter().any(|x| wall.along.dot(x) < most)
     }
 }

@@ -32,16 +32,6 @@ struct Inside {
     halves: Option<[usize; 2]>,
 }
 
-/// A wall along an edge that is moved out to hold faces.
-#[derive(Clone, Copy, Debug)]
-struct Held {
-    edge: Wall,
-    most: f64,
-    furthest: usize,
-    /// How much longer the edge is than the way out.
-    worth: f64,
-}
-
 /// The faces of a side.
 #[derive(Debug)]
 pub(super) struct Tree<'a> {
@@ -100,39 +90,47 @@ impl<'a> Tree<'a> {
     /// The two walls of faces: of the edges of some of them, whose lengths are their sizes, that beyond which these reach least,
     /// or the like edge of the face which stands out furthest; none where faces reach further than the edge is long.
     fn walls(&self, faces: &[usize]) -> [Wall; 2] {
-        let some: Vec<usize> = faces.iter().step_by(faces.len().div_ceil(LEAF)).copied().collect();
-        let of_some = some.iter().flat_map(|&at| edges(&self.side.face(at)));
-        let of_some: Vec<Held> = of_some.map(|edge| self.hold(edge, &some)).collect();
+        let some = faces.iter().step_by(faces.len().div_ceil(LEAF));
+        let some: Vec<Face<'_>> = some.map(|&at| self.side.face(at)).collect();
+        let hulls: Vec<Hull<'_>> = some.iter().map(Hull::of).collect();
+        let of_some = some.iter().flat_map(edges).map(|edge| {
+            let heights = hulls.iter().map(|hull| hull.most(&edge.along));
+            (worth(&edge, heights.fold(edge.most, f64::max)), edge)
+        });
+        let of_some: Vec<(f64, Wall)> = of_some.collect();
         let best = |other: Vector3| {
             let looks_away = |wall: &Wall| {
                 wall.along.dot(&other) <= OTHER_WAY * wall.along.norm() * other.norm()
             };
-            let order = |a: &&Held, b: &&Held| a.worth.total_cmp(&b.worth);
-            let away = of_some.iter().filter(|held| looks_away(&held.edge));
-            let first = self.hold(away.max_by(order)?.edge, faces);
-            let outermost = edges(&self.side.face(first.furthest)).into_iter().filter(looks_away);
-            let cos = |wall: &Wall| wall.along.dot(&first.edge.along) / wall.along.norm();
+            let away = of_some.iter().filter(|(_, edge)| looks_away(edge));
+            let first = away.max_by(|a, b| a.0.total_cmp(&b.0))?.1;
+            let (left, wall, furthest) = self.hold(first, faces);
+            let outermost = furthest.iter().flat_map(edges).filter(looks_away);
+            let cos = |wall: &Wall| wall.along.dot(&first.along) / wall.along.norm();
             let like = outermost.max_by(|a, b| cos(a).total_cmp(&cos(b)));
-            let second = like.map(|edge| self.hold(edge, faces));
-            let held = [Some(&first), second.as_ref()].into_iter().flatten().max_by(order)?;
-            (held.worth > 0.0).then_some(Wall { most: held.most, ..held.edge })
+            let (left, wall) = match like.map(|edge| self.hold(edge, faces)) {
+                Some((more, wall, _)) if more > left => (more, wall),
+                _ => (left, wall),
+            };
+            (left > 0.0).then_some(wall)
         };
         let first = best(Vector3::zeros()).unwrap_or_default();
         [first, best(first.along).unwrap_or_default()]
     }
 
-    /// Moves the wall of an edge out until it holds faces.
-    fn hold(&self, edge: Wall, faces: &[usize]) -> Held {
-        let (mut most, mut furthest) = (edge.most, faces[0]);
+    /// Moves the wall of an edge out until it holds faces: its worth, and the face that stands out furthest.
+    fn hold(&self, edge: Wall, faces: &[usize]) -> (f64, Wall, Option<Face<'_>>) {
+        let (mut most, mut furthest) = (edge.most, None);
         for &at in faces {
             if self.boxes[at].most(&edge.along) > most {
-                let reaches = Hull::of(&self.side.face(at)).most(&edge.along);
-                (most, furthest) = if reaches > most { (reaches, at) } else { (most, furthest) };
+                let face = self.side.face(at);
+                let reaches = Hull::of(&face).most(&edge.along);
+                if reaches > most {
+                    (most, furthest) = (reaches, Some(face));
+                }
             }
         }
-        // A wall is as long as its edge: heights along it are lengths times that.
-        let length = edge.along.norm();
-        Held { edge, most, furthest, worth: length - (most - edge.most) / length }
+        (worth(&edge, most), Wall { most, ..edge }, furthest)
     }
 
     /// Collects the faces that a sweep may meet, in ascending order, and returns how many boxes
@@ -161,6 +159,13 @@ impl<'a> Tree<'a> {
         };
         1 + halves.map(|half| self.collect(half, sweep, found)).iter().sum::<usize>()
     }
+}
+
+/// How much longer an edge is than its wall is moved out. A wall is as long as its edge: heights along it are lengths times
+/// that.
+fn worth(edge: &Wall, most: f64) -> f64 {
+    let length = edge.along.norm();
+    length - (most - edge.most) / length
 }
 
 /// The walls of a face at its edges, as long as these.
