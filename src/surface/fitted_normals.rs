@@ -2,8 +2,10 @@
 //! much as divisions differ, which at 64 divisions is more than an interference of a thousandth.
 //!
 //! In the plane tangents of chords, each by the inverse of its length: exact on a circle, whatever the divisions. In space a
-//! quadric by least squares through the node, over the faces around it and those around these if they have few nodes, in
-//! the frame of the normal, twice. Neither looks across an edge at which faces turn sharply.
+//! quadric by least squares through the node, over the faces around it and, of linear ones or if they have few nodes, those
+//! around these, in the frame of the normal, twice. Products with the height make it exact on spheres, cylinders and cones;
+//! faces with mid nodes, which are near their shape as they are, have that of the height with itself alone. Neither looks
+//! across an edge at which faces turn sharply.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -131,13 +133,14 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     for (&(surface, node), faces) in &around {
         watch.goes_on()?;
         let mut near = ring(surface, &BTreeSet::from([node]));
-        if near.len() < FEW {
+        let is_linear = side.face(faces[0]).kind.mids().next().is_none();
+        if is_linear || near.len() < FEW {
             near = ring(surface, &near);
         }
         near.remove(&node);
         let from: Vec<Vector3> =
             near.iter().map(|&other| side.position(other) - side.position(node)).collect();
-        normals.insert((surface, node), fit(mean(side, faces, node), &from));
+        normals.insert((surface, node), fit(mean(side, faces, node), &from, is_linear));
     }
     let of_face = |(at, &surface): (usize, &usize)| {
         let mut found = [Vector3::zeros(); MOST_NODES];
@@ -160,18 +163,23 @@ fn mean(side: &Side<'_>, faces: &[usize], node: usize) -> Vector3 {
 }
 
 /// The normal of the quadric through the origin that is nearest to some places; the given one if they tell of another side.
-fn fit(mean: Vector3, places: &[Vector3]) -> Vector3 {
+fn fit(mean: Vector3, places: &[Vector3], is_linear: bool) -> Vector3 {
     let size = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let weights: Vec<f64> = places.iter().map(|x| size / x.norm()).collect();
     let mut normal = mean;
     for _ in 0..TURNS {
         let across = plane::tangents(3, normal);
-        let [a, b] = across.map(|t| places.iter().map(|x| t.dot(x) / size).collect::<Vec<f64>>());
-        let heights: Vec<f64> = places.iter().map(|x| normal.dot(x) / size).collect();
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect();
-        let squares = [product(&a, &a), product(&a, &b), product(&b, &b)];
-        let columns = [a, b].into_iter().chain(squares).map(|column| product(&column, &weights));
-        let slopes = least_squares(columns.collect(), &product(&heights, &weights));
+        let along = |t: &Vector3| places.iter().map(|x| t.dot(x) / size).collect::<Vec<f64>>();
+        let [a, b, height] = [&across[0], &across[1], &normal].map(along);
+        let product =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+        let flat = [(&a, &a), (&a, &b), (&b, &b), (&height, &height)];
+        let leaning = [(&a, &height), (&b, &height)];
+        let leaning = leaning.into_iter().filter(|_| is_linear && places.len() > FEW);
+        let products = flat.into_iter().chain(leaning).map(|(a, b)| product(a, b));
+        let columns = [a.clone(), b.clone()].into_iter().chain(products);
+        let columns = columns.map(|column| product(&column, &weights)).collect();
+        let slopes = least_squares(columns, &product(&height, &weights));
         normal = unit(normal - slopes[0] * across[0] - slopes[1] * across[1]).unwrap_or(normal);
     }
     if normal.dot(&mean) > SMOOTH { normal } else { mean }

@@ -1,6 +1,6 @@
 """Pressures at rims of unstructured meshes of gmsh: of a pressure that is linear, and of a pin longer than its lug.
 
-    python3 tests/bench/rims.py [linear] [pin]
+    python3 tests/bench/rims.py [linear] [pin] [matching]
 
 It needs gmsh (PyPI), numpy and scipy. mm, N, MPa.
 
@@ -8,6 +8,8 @@ linear: two blocks of tetrahedra hang over each other by a part of an element, 3
 displacements are those of a pressure p (1 + 0.3 x + 0.8 y), or p. The largest errors of pressures.
 pin: a pin of 16 mm in a lug of 10 mm, clearance 0.05, pushed by its end; beside the same pin partitioned where the lug
 ends, of which the faces under the lug alone are slaves.
+matching: the partitioned pin whose nodes are those of the lug, and its mirror image: the lateral force that a mesh has of its
+own, as it is not symmetric.
 """
 
 import os
@@ -115,7 +117,7 @@ def linear():
 
 
 def pin_in_lug(kind, size, seed, partitioned, pin_is_slave, mu):
-    """Places of the pairs along the circle and the axis, pressures, the force and the number of folds."""
+    """Places of the pairs along the circle and the axis, pressures, the force and the pairs."""
     def pin(shapes):
         if kind == "hex20":
             # Where it is not partitioned no layer ends with the lug.
@@ -134,6 +136,10 @@ def pin_in_lug(kind, size, seed, partitioned, pin_is_slave, mu):
         ring, _ = shapes.cut(*discs)
         shapes.extrude(ring, 0, 0, LUG, numElements=[4] if kind == "hex20" else [], recombine=kind == "hex20")
     bodies = [solid(kind, size, seed, pin), solid(kind, size, seed + 1, lug)]
+    return pressed(kind, bodies, partitioned, pin_is_slave, mu)
+
+
+def pressed(kind, bodies, partitioned, pin_is_slave, mu):
     at, K, first, faces = two(kind, bodies, ((210e3, 0.3), (70e3, 0.33)))
     radius = np.hypot(at[:, 0], at[:, 1])
     touching = (abs(radius - RADIUS) < 1e-3) & (at[:, 2] < (LUG if partitioned else END) + 1e-6)
@@ -169,6 +175,25 @@ def pin():
                   f"partitioned {abs(beside[0] / beside[1]):.1e}", flush=True)
 
 
+def matching():
+    def fragments(shapes):
+        parts = [(3, shapes.addCylinder(0, 0, low, 0, 0, high - low, radius))
+                 for low, high, radius in ((0, LUG, RADIUS), (LUG, END, RADIUS), (0, LUG, OUTER))]
+        shapes.fragment(parts[:1], parts[1:])
+    for size, seed in [(size, seed) for size in (2.8, 2.2) for seed in (1, 2, 3)]:
+        at, elements = solid("tet10", size, seed, fragments)
+        inside = np.hypot(*at[elements][..., :2].T).max(axis=0) < RADIUS * (1 + 1e-6)
+        bodies, mirrored = [], []
+        for body in (elements[inside], elements[~inside]):
+            used, body = np.unique(body, return_inverse=True)
+            bodies.append((at[used], body.reshape(-1, 10)))
+            # The image of an element has its first two corners changed.
+            mirrored.append((at[used] * [-1, 1, 1], bodies[-1][1][:, [1, 0, 2, 3, 4, 6, 5, 9, 8, 7]]))
+        across = [pressed("tet10", both, True, True, 0.0)[2] for both in (bodies, mirrored)]
+        print(f"matching tet10 {size}, seed {seed}: across {across[0][0] / across[0][1]:.5e}, mirrored "
+              f"{across[1][0] / across[1][1]:.5e}", flush=True)
+
+
 if __name__ == "__main__":
-    for name in sys.argv[1:] or ["linear", "pin"]:
-        {"linear": linear, "pin": pin}[name]()
+    for name in sys.argv[1:] or ["linear", "pin", "matching"]:
+        {"linear": linear, "pin": pin, "matching": matching}[name]()

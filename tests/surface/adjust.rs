@@ -55,9 +55,9 @@ impl Blocks {
         }
     }
 
-    /// The mean traction of the tie beside Young's modulus times the angle, while the bottom turns about an axis and the rest
-    /// follows: there is none where rows keep rigid motions.
-    fn of_turn(&self, upper_is_slave: bool, axis: usize) -> f64 {
+    /// The mean traction of the tie and the largest of a pair, beside Young's modulus times the angle, while the bottom turns
+    /// about an axis and the rest follows: there is none where rows keep rigid motions.
+    fn of_turn(&self, upper_is_slave: bool, axis: usize) -> [f64; 2] {
         let (nodes, arrays) =
             (self.nodes(), self.pairs(upper_is_slave, &Default::default()).rows());
         let stiffness = Solid::stiffness(&[&self.solids[0], &self.solids[1]]);
@@ -88,23 +88,30 @@ impl Blocks {
         let solution = model.solve(&case, &settings, None, monitor).unwrap();
         assert_eq!(solution.status, Status::Solved, "{}", solution.message);
         let force = solution.certificate.force.chunks(3);
-        let sum: f64 = force.map(|f| f.iter().map(|f| f * f).sum::<f64>().sqrt()).sum();
-        sum / arrays.areas.iter().sum::<f64>() / YOUNG
+        let sizes: Vec<f64> =
+            force.map(|f| f.iter().map(|f| f * f).sum::<f64>().sqrt() / YOUNG).collect();
+        let largest = sizes.iter().zip(&arrays.areas).map(|(size, area)| size / area);
+        let mean = sizes.iter().sum::<f64>() / arrays.areas.iter().sum::<f64>();
+        [mean, largest.fold(0.0, f64::max)]
     }
 }
 
 /// A rigid turn of tied blocks leaves a mean traction of less than a thousandth of Young's modulus times the angle with
-/// linear elements, and of a ten-thousandth with quadratic ones; a move makes it at least ten and three times less.
+/// linear elements, and of a ten-thousandth with quadratic ones; a move makes it at least ten and three times less. After a
+/// second one, of new pairs, that of no single pair is more.
 #[test]
 fn a_rigid_turn_is_free_after_the_move() {
     for (order, bar, factor) in [(Order::Linear, 1e-3, 10.0), (Order::Edges, 1e-4, 3.0)] {
         for upper_is_slave in [false, true] {
             let mut blocks = Blocks::new([5, 7], order);
-            let before = blocks.of_turn(upper_is_slave, 1);
-            blocks.adjust(upper_is_slave);
-            let after = blocks.of_turn(upper_is_slave, 1);
-            let context = format!("{order:?}, {upper_is_slave}: {before:e}, then {after:e}");
-            assert!(after < bar && factor * after < before, "{context}");
+            let [before, once, twice] = [0, 1, 2].map(|_| {
+                let traction = blocks.of_turn(upper_is_slave, 1);
+                blocks.adjust(upper_is_slave);
+                traction
+            });
+            let context = format!("{order:?}, {upper_is_slave}: {before:?}, {once:?}, {twice:?}");
+            assert!(once[0] < bar && factor * once[0] < before[0], "{context}");
+            assert!(twice[1] < bar, "{context}");
         }
     }
 }

@@ -258,7 +258,7 @@ class SurfacePairs:
         """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet, once.
 
         within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn.
-        Assemble K with these coordinates, and pair them again.
+        Assemble K with these coordinates, and pair them again; of quadratic faces adjusting those pairs too leaves less.
         """
         coordinates = self._coordinates.copy()
         self._do("surface_adjust", float(within), at(coordinates))
