@@ -603,13 +603,13 @@ struct signorini_settings {
      * Most threads of a call; default 1; 0 stands for 1. They end before the call does, and get no
      * signals. If the system refuses memory to a thread that begins, the process may end.
      *
-     * signorini_model_solve: each thread solves a part of the cases, and takes
+     * signorini_model_solve, several cases: each thread solves a part of them, and takes
      * signorini_model_data.memory, to which memory_limit applies. The same number gives the same
-     * bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread.
-     *
-     * signorini_model_new_sparse, and load cases in full space: at most 64 threads share each
-     * factorisation. Each takes 8 bytes for each unknown and up to 1 MB. Any number gives the same
      * bits.
+     *
+     * One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 threads share
+     * factorisations and products, also those of sweeps, that are large. Any number gives the same
+     * bits. In those of a sparse matrix each takes 8 bytes for each unknown and up to 1 MB.
      */
     int32_t threads;
 };

@@ -147,4 +147,4 @@ pub use solve::{
     Errors, Escape, Existence, Fallback, LcpSolution, Remarks, SecondSolution, Solution, Status,
     Uniqueness, memory, memory_flexibility, solve, solve_flexibility, solve_lcp,
 };
-pub use workers::{SingleThread, Workers};
+pub use workers::{Workers, with_workers};

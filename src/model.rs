@@ -74,10 +74,10 @@ impl Model {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
-        let (full_space, workers) = (monitor.wants_full_space(), monitor.workers());
+        let full_space = monitor.wants_full_space();
         let reserve = monitor.reserve();
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let control = Control { order, full_space, workers, reserve, ask };
+        let control = Control { order, full_space, reserve, ask };
         let reduction = Box::new(SparseReduction::controlled(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
@@ -183,8 +183,7 @@ impl Model {
         }
         if let Some(matrix_free) = self.reduction.matrix_free() {
             check_start("d", self.dim * self.pairs, start)?;
-            let by = (matrix_free, monitor.workers());
-            let solution = self.on_bodies(by, case, |bodies, case| {
+            let solution = self.on_bodies(matrix_free, case, |bodies, case| {
                 let mut solution = solve_matrix_free(bodies, case, settings, start, past, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)

@@ -6,7 +6,6 @@ use std::time::Instant;
 use crate::error::{Error, Limit};
 use crate::settings::Settings;
 use crate::shortage;
-use crate::workers::{SingleThread, Workers};
 
 /// The argument of a progress callback.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +61,6 @@ pub struct Monitor<'a> {
     progress: Option<&'a mut ProgressFn<'a>>,
     /// True once the callback has cancelled: it is not asked again.
     is_cancelled: bool,
-    workers: &'a dyn Workers,
     reserve: fn(u64) -> bool,
 }
 
@@ -85,14 +83,8 @@ impl<'a> Monitor<'a> {
             rate: OPERATIONS,
             progress,
             is_cancelled: false,
-            workers: &SingleThread,
             reserve: |_| true,
         }
-    }
-
-    /// This monitor with threads that share the reduction of a sparse matrix.
-    pub fn with_workers(self, workers: &'a dyn Workers) -> Self {
-        Monitor { workers, ..self }
     }
 
     /// This monitor with what obtains so many bytes for a work before it begins; `false`: the system refuses them.
@@ -103,11 +95,6 @@ impl<'a> Monitor<'a> {
     /// What obtains memory for a work before it begins.
     pub(crate) fn reserve(&self) -> fn(u64) -> bool {
         self.reserve
-    }
-
-    /// Who shares work.
-    pub(crate) fn workers(&self) -> &'a dyn Workers {
-        self.workers
     }
 
     /// `true` if a sparse matrix is to be left uncondensed.

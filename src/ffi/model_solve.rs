@@ -12,14 +12,14 @@ use super::outputs::{OutputArguments, Outputs};
 use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
 use super::status::{is_told, remember};
-use super::threads::with_workers;
+use super::threads::with_threads;
 use crate::error::{Argument, Error, Message};
 use crate::model::{BLOCK, Model, Past, Series, Starts};
 use crate::monitor::ProgressFn;
 use crate::settings::Settings;
 use crate::shortage;
 use crate::solve::Solution;
-use crate::workers::{SingleThread, Workers};
+use crate::workers::share;
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -107,12 +107,11 @@ impl<'m> Lane<'m> {
         Lane { left, series, starts: Vec::new() }
     }
 
-    /// Solves the next cases, each with its number. `workers` share what is factorised in full space.
+    /// Solves the next cases, each with its number.
     fn solve_next(
         &mut self,
         cases: &LoadCases<'_>,
         (settings, start): (&Settings, WarmStart),
-        workers: &dyn Workers,
         progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<(usize, Result<Solution, Error>)> {
         let next = self.left.start..self.left.end.min(self.left.start + BLOCK);
@@ -123,7 +122,7 @@ impl<'m> Lane<'m> {
             WarmStart::Given => Starts::Given(&self.starts),
             WarmStart::Previous => Starts::Previous(None),
         };
-        let solved = self.series.solve_cases_with(workers, &cases, settings, starts, progress);
+        let solved = self.series.solve_cases(&cases, settings, starts, progress);
         next.zip(solved).collect()
     }
 }
@@ -142,17 +141,17 @@ impl Block<'_> {
         let mut lanes = self.lanes(cases, past, received);
         // A case that is not solved is told before one with a remark.
         let mut told: Option<((bool, usize), i32, Message)> = None;
-        // Without a stiffness, threads share each factorisation; else each solves cases of its own.
-        let (threads, memory) = match self.model.is_matrix_free() {
-            true => (received.threads, 0),
-            false => {
+        // Threads share the cases, or the work of each of them.
+        let (threads, memory) = match lanes.len() {
+            1 => (received.threads, 0),
+            _ => {
                 let more = self.model.memory_of_cases(BLOCK) + self.load_cases.memory_of_ties();
                 (lanes.len(), self.model.memory().saturating_add(more))
             }
         };
-        with_workers(threads, memory, |workers| {
+        with_threads(threads, memory, || {
             while lanes.iter().any(|lane| !lane.left.is_empty()) {
-                for (case, solved) in self.next_of(&mut lanes, received, workers) {
+                for (case, solved) in self.next_of(&mut lanes, received) {
                     let (code, message) = self.write(case, solved);
                     self.outputs.status.part(case, 1).write(&[code]);
                     let rank = (code == 0, case);
@@ -194,7 +193,6 @@ impl Block<'_> {
         &self,
         lanes: &mut [Lane<'_>],
         received: &ParsedSettings,
-        workers: &dyn Workers,
     ) -> Vec<(usize, Result<Solution, Error>)> {
         if received.warm_start == WarmStart::Given {
             lanes.iter_mut().for_each(|lane| self.take_starts(lane));
@@ -203,14 +201,14 @@ impl Block<'_> {
         if let [lane] = lanes {
             let mut progress = received.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            return lane.solve_next(cases, how, workers, progress);
+            return lane.solve_next(cases, how, progress);
         }
         let parts: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new((lane, Vec::new()))).collect();
         let work = |_, part: usize| {
             let mut part = parts[part].lock().unwrap_or_else(PoisonError::into_inner);
-            part.1 = part.0.solve_next(cases, how, &SingleThread, None);
+            part.1 = part.0.solve_next(cases, how, None);
         };
-        workers.run(parts.len(), &work, &mut || true);
+        share(parts.len(), f64::INFINITY, &work, &mut || true);
         let solved = parts.into_iter().map(Mutex::into_inner);
         solved.flat_map(|part| part.unwrap_or_else(PoisonError::into_inner).1).collect()
     }

@@ -108,13 +108,13 @@ pub struct SignoriniSettings {
     /// Most threads of a call; default 1; 0 stands for 1. They end before the call does, and get no
     /// signals. If the system refuses memory to a thread that begins, the process may end.
     ///
-    /// signorini_model_solve: each thread solves a part of the cases, and takes
+    /// signorini_model_solve, several cases: each thread solves a part of them, and takes
     /// signorini_model_data.memory, to which memory_limit applies. The same number gives the same
-    /// bits. A callback or SIGNORINI_START_PREVIOUS leaves one thread.
-    ///
-    /// signorini_model_new_sparse, and load cases in full space: at most 64 threads share each
-    /// factorisation. Each takes 8 bytes for each unknown and up to 1 MB. Any number gives the same
     /// bits.
+    ///
+    /// One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 threads share
+    /// factorisations and products, also those of sweeps, that are large. Any number gives the same
+    /// bits. In those of a sparse matrix each takes 8 bytes for each unknown and up to 1 MB.
     pub threads: i32,
 }
 
@@ -219,14 +219,11 @@ impl ParsedSettings {
     /// Does work that the settings limit, the caller's callback watches, and the caller's number of
     /// threads share.
     pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
-        threads::with_workers(self.threads, 0, |workers| {
+        threads::with_threads(self.threads, 0, || {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            work(
-                &mut Monitor::new(&self.settings, progress)
-                    .with_workers(workers)
-                    .with_reserve(reserve::want_estimate),
-            )
+            let monitor = Monitor::new(&self.settings, progress);
+            work(&mut monitor.with_reserve(reserve::want_estimate))
         })
     }
 

@@ -74,11 +74,12 @@ pub unsafe extern "C" fn signorini_solve(
         };
         let n = data.dim * data.pairs;
         guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;
-        let problem = ContactProblem::new(data).map_err(from_error)?;
         let start = received.starts_from_given().then(|| outputs.d.read());
-        let solution = received
-            .monitored(|monitor| solve(&problem, &received.settings, start.as_deref(), monitor))
-            .map_err(from_error)?;
+        let solved = received.monitored(|monitor| {
+            let problem = ContactProblem::new(data)?;
+            solve(&problem, &received.settings, start.as_deref(), monitor)
+        });
+        let solution = solved.map_err(from_error)?;
         let status = outputs.write(0, &solution);
         remember_result(solution);
         Ok(status)

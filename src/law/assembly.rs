@@ -3,6 +3,7 @@
 //! With `dd` the displacements of a unit of an unknown ([`Slopes`]), the equation of a normal component is
 //! `(K dd)_n`, and that of a tangential one `(K dd)_t - drag (K dd)_n + turn x`.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::slopes::{Linearised, Slopes};
@@ -61,19 +62,19 @@ const SHORTEST_RUN: usize = 4;
 /// `K dd` for a unit of an unknown.
 pub struct Image<'i> {
     /// The components, each to be multiplied by `factor`.
-    entries: &'i [f64],
+    entries: Cow<'i, [f64]>,
     factor: f64,
 }
 
 impl<'i> Image<'i> {
     /// The image with these components.
-    pub fn of(entries: &'i [f64]) -> Self {
-        Image { entries, factor: 1.0 }
+    pub fn of(entries: impl Into<Cow<'i, [f64]>>) -> Self {
+        Image { entries: entries.into(), factor: 1.0 }
     }
 
     /// Its product with a vector.
     pub fn dot(&self, vector: &[f64]) -> f64 {
-        self.factor * dot(vector, self.entries)
+        self.factor * dot(vector, &self.entries)
     }
 }
 
@@ -148,40 +149,33 @@ impl<'s> Assembly<'s> {
     }
 
     /// `K dd` for a unit of the unknown `j`, the components from `from` on: a column of `K` where one component moves,
-    /// otherwise in `room`.
-    pub fn image<'i>(&self, j: usize, from: usize, room: &'i mut [f64]) -> Image<'i>
-    where
-        's: 'i,
-    {
+    /// otherwise a sum of them.
+    pub fn image(&self, j: usize, from: usize) -> Image<'s> {
         let mut moved = self.moved(j);
         let Some((entries, factor)) = moved.next() else {
-            room[from..].fill(0.0);
-            return Image::of(room);
+            return Image::of(vec![0.0; self.matrix.size()]);
         };
-        let Some((others, part)) = moved.next() else { return Image { entries, factor } };
-        let sums = room[from..].iter_mut().zip(&entries[from..]).zip(&others[from..]);
+        let Some((others, part)) = moved.next() else {
+            return Image { entries: Cow::Borrowed(entries), factor };
+        };
+        let mut image = vec![0.0; self.matrix.size()];
+        let sums = image[from..].iter_mut().zip(&entries[from..]).zip(&others[from..]);
         sums.for_each(|((sum, entry), other)| *sum = factor * entry + part * other);
-        Image::of(room)
+        Image::of(image)
     }
 
     /// As [`Self::image`], with `s K + (1 - s) k` in the place of `K`.
-    pub fn led_image<'i>(
-        &self,
-        (s, pairs): (f64, &[Linearised]),
-        j: usize,
-        from: usize,
-        room: &'i mut [f64],
-    ) -> Image<'i> {
-        room[from..].fill(0.0);
+    pub fn led_image(&self, (s, pairs): (f64, &[Linearised]), j: usize, from: usize) -> Image<'s> {
+        let mut image = vec![0.0; self.matrix.size()];
         for (entries, part) in self.moved(j) {
-            let sums = room[from..].iter_mut().zip(&entries[from..]);
+            let sums = image[from..].iter_mut().zip(&entries[from..]);
             sums.for_each(|(sum, entry)| *sum += s * part * entry);
         }
         let unknown = &self.unknowns[j];
         let own = pairs[unknown.pair].scaled(&self.motion_of(unknown));
-        let components = room[self.dim * unknown.pair..].iter_mut().take(self.dim);
+        let components = image[self.dim * unknown.pair..].iter_mut().take(self.dim);
         components.zip(own).for_each(|(sum, own)| *sum += (1.0 - s) * own);
-        Image::of(room)
+        Image::of(image)
     }
 
     /// The columns of `K` of the components that a unit of the unknown `j` moves, with the displacement of each.
@@ -217,7 +211,7 @@ impl<'s> Assembly<'s> {
     /// Writes the coefficients in a range of a run, but for the turn.
     #[inline(always)]
     fn write(&self, spacing: Spacing, range: Range<usize>, image: &Image<'_>, entries: &mut [f64]) {
-        let Image { entries: image, factor } = *image;
+        let (image, factor) = (&*image.entries, image.factor);
         let entries = &mut entries[range.clone()];
         let (count, at) = (entries.len(), self.at(range.start));
         let own = self.scales[range.clone()].iter().zip(&self.drags[range.clone()]);

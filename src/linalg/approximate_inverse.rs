@@ -14,22 +14,27 @@ use faer::perm::{PermRef, permute_cols_in_place, permute_cols_in_place_scratch};
 use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
+use super::columns::Columns;
 use super::factor::{RowOrder, lu};
 use super::watched::{GoesOn, block, filled};
 
 /// A matrix and its approximate inverse.
 pub struct ApproximateInverse {
-    matrix: Mat<f64>,
-    inverse: Mat<f64>,
+    matrix: Columns,
+    inverse: Columns,
 }
 
 impl ApproximateInverse {
     /// Inverts the `n x n` matrix whose columns `fill(j, column)` writes; `None` if an entry of the inverse is
     /// not finite, or where `goes_on` says no.
-    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64]), goes_on: GoesOn<'_>) -> Option<Self> {
+    pub fn new(
+        n: usize,
+        fill: impl Fn(usize, &mut [f64]) + Sync,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let matrix = filled((n, n), fill, goes_on)?;
         let inverse = inverted(&matrix, goes_on)?;
-        let finite = (0..n).all(|j| inverse.col_as_slice(j).iter().all(|entry| entry.is_finite()));
+        let finite = (0..n).all(|j| inverse.column(j).iter().all(|entry| entry.is_finite()));
         finite.then_some(ApproximateInverse { matrix, inverse })
     }
 
@@ -42,7 +47,7 @@ impl ApproximateInverse {
     pub fn product(&self, x: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; x.len()];
         for (j, x) in x.iter().enumerate() {
-            let column = self.inverse.col_as_slice(j);
+            let column = self.inverse.column(j);
             product.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
         }
         product
@@ -81,9 +86,9 @@ impl ApproximateInverse {
                 return None;
             }
             let width = at_once.min(n - begin);
-            let columns = self.matrix.get(.., begin..begin + width);
+            let columns = self.matrix.as_ref().get(.., begin..begin + width);
             let part = block.get_mut(.., ..width);
-            matmul(part, Accum::Replace, &self.inverse, columns, 1.0, Par::Seq);
+            matmul(part, Accum::Replace, self.inverse.as_ref(), columns, 1.0, Par::Seq);
             for j in 0..width {
                 block[(begin + j, j)] -= 1.0;
                 let column = block.col_as_slice(j);
@@ -116,10 +121,10 @@ fn tiny(n: usize) -> f64 {
 }
 
 /// Bounds on the entries of `|A| x`, of an `x` that has no negative entry.
-fn bound_of_product(matrix: &Mat<f64>, x: &[f64]) -> Vec<f64> {
+fn bound_of_product(matrix: &Columns, x: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, x) in x.iter().enumerate() {
-        let column = matrix.col_as_slice(j);
+        let column = matrix.column(j);
         sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs() * x);
     }
     sums.iter().map(|&sum| sum_of_products_up(sum, x.len())).collect()
@@ -127,12 +132,13 @@ fn bound_of_product(matrix: &Mat<f64>, x: &[f64]) -> Vec<f64> {
 
 /// By the factors of the transpose: right-hand sides by rows need no deep stack (`small_products.rs`), and the inverse
 /// comes out by columns. `None` where `goes_on` says no.
-fn inverted(matrix: &Mat<f64>, goes_on: GoesOn<'_>) -> Option<Mat<f64>> {
+fn inverted(matrix: &Columns, goes_on: GoesOn<'_>) -> Option<Columns> {
     let n = matrix.nrows();
-    let mut factors = matrix.transpose().to_owned();
-    let RowOrder { forward, inverse: backward, .. } = lu(&mut factors, goes_on)?;
-    let mut inverse = Mat::identity(n, n);
-    let mut columns = inverse.transpose_mut();
+    let mut factors = matrix.as_ref().transpose().to_owned();
+    let RowOrder { forward, inverse: backward, .. } = lu(factors.as_mut(), goes_on)?;
+    let mut inverse = Columns::zeros(n, n);
+    (0..n).for_each(|i| inverse[(i, i)] = 1.0);
+    let mut columns = inverse.as_mut().transpose_mut();
     let at_once = block(n * n);
     for begin in (0..n).step_by(at_once) {
         if !goes_on() {

@@ -7,9 +7,8 @@
 //! take two products with a vector (S. M. Rump, *Verification of positive definiteness*, BIT 46 (2006)
 //! 433-452, has the idea).
 
-use faer::Mat;
-
 use super::ball::{product_up, sum_of_products_up, sum_up};
+use super::columns::Columns;
 use super::factor::{Factor, cholesky};
 use super::matrix::{TILE, tiles};
 use super::tolerances::{FEW_OPERATIONS, SINGULAR};
@@ -35,11 +34,15 @@ pub struct Definite {
 impl Definite {
     /// The matrix of `n` rows whose columns `fill(j, column)` writes, each entry known up to [`FEW_OPERATIONS`], relative;
     /// `None` if it is not proved to be positive definite, that its symmetric part is, or where `goes_on` says no.
-    pub fn new(n: usize, fill: impl FnMut(usize, &mut [f64]), goes_on: GoesOn<'_>) -> Option<Self> {
+    pub fn new(
+        n: usize,
+        fill: impl Fn(usize, &mut [f64]) + Sync,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let mut matrix = filled((n, n), fill, goes_on)?;
         let sizes = lower_symmetric_part(&mut matrix);
         let lower = |j: usize, column: &mut [f64]| {
-            column[j..].copy_from_slice(&matrix.col_as_slice(j)[j..]);
+            column[j..].copy_from_slice(&matrix.column(j)[j..]);
         };
         let mut factor = Factor::new(n, true, SINGULAR, lower, goes_on)?;
         let found = least_eigenvalue(&mut factor);
@@ -62,7 +65,7 @@ impl Definite {
 
 /// Overwrites the lower triangle with that of the symmetric part, and returns bounds on the absolute sums of
 /// its rows with those of the columns.
-fn lower_symmetric_part(matrix: &mut Mat<f64>) -> Vec<f64> {
+fn lower_symmetric_part(matrix: &mut Columns) -> Vec<f64> {
     let n = matrix.nrows();
     let mut sums = vec![0.0; n];
     for (columns, rows) in tiles(n, TILE) {
@@ -96,15 +99,18 @@ fn least_eigenvalue(factor: &mut Factor) -> f64 {
 /// A positive bound below all eigenvalues of the symmetric matrix, of which the lower triangle is read and
 /// which is known up to `doubt` in each absolute row sum; `None` if they are not proved to be above `shift`
 /// by as much as rounding leaves, or where `goes_on` says no.
-fn above(matrix: &Mat<f64>, shift: f64, doubt: f64, goes_on: GoesOn<'_>) -> Option<f64> {
+fn above(matrix: &Columns, shift: f64, doubt: f64, goes_on: GoesOn<'_>) -> Option<f64> {
     let n = matrix.nrows();
-    let mut factor = matrix.clone();
-    (0..n).for_each(|i| factor[(i, i)] -= shift);
-    cholesky(&mut factor, goes_on)?;
+    let copy = |j: usize, column: &mut [f64]| {
+        column.copy_from_slice(matrix.column(j));
+        column[j] -= shift;
+    };
+    let mut factor = filled((n, n), copy, goes_on)?;
+    cholesky(factor.as_mut(), goes_on)?;
     // |L| |Lᵀ| 1.
     let mut size = vec![0.0; n];
     for j in 0..n {
-        let column = &factor.col_as_slice(j)[j..];
+        let column = &factor.column(j)[j..];
         let across: f64 = column.iter().map(|entry| entry.abs()).sum();
         size[j..].iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs() * across);
     }

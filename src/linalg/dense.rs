@@ -1,4 +1,4 @@
-//! Dense kernels of factorisations, by faer on the calling thread.
+//! Dense kernels of factorisations, by faer. Threads share what has many rows or columns, by blocks.
 
 use faer::dyn_stack::{MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::{
@@ -10,7 +10,10 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use super::matrix::{TILE, tiles};
-use super::watched::{BLOCK, GoesOn};
+use super::small_products::SMALL_PRODUCT;
+use super::vector::dot;
+use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns};
+use crate::workers::{each, each_while, reading};
 
 /// Subtracts the products `a bᵀ` from the entries `(row(i), column(j))` of a matrix, `i < rows` and `j < columns`; of
 /// a `square` one, `a = b`, the lower triangle. Rows and columns ascend. `work` holds a product.
@@ -37,9 +40,23 @@ pub fn subtract_products<'a>(
     scatter(target.as_mut(), work, (rows, row), column, square);
 }
 
-/// Subtracts the lower triangle of `l lᵀ`.
-pub fn subtract_square(target: MatMut<'_, f64>, l: MatRef<'_, f64>) {
-    add_product(target, Accum::Add, (l, l), -1.0, true);
+/// Subtracts the lower triangle of `l lᵀ`; `None` where `goes_on` says no.
+pub fn subtract_square(
+    target: MatMut<'_, f64>,
+    l: MatRef<'_, f64>,
+    goes_on: GoesOn<'_>,
+) -> Option<()> {
+    let multiplications = (l.nrows() * l.nrows() * l.ncols()) as f64 / 2.0;
+    let blocks = blocks_of_columns(target, SIDE).enumerate();
+    let subtract = |(block, columns): (usize, MatMut<'_, f64>)| {
+        let count = columns.ncols();
+        let (_, rows) = columns.split_at_row_mut(SIDE * block);
+        let (own, below) = rows.split_at_row_mut(count);
+        let (across, others) = l.get(SIDE * block.., ..).split_at_row(count);
+        add_product(own, Accum::Add, (across, across), -1.0, true);
+        add_product(below, Accum::Add, (others, across), -1.0, false);
+    };
+    each_while(blocks, multiplications, subtract, goes_on).then_some(())
 }
 
 /// Adds `factor a bᵀ`, or writes it; of a `square`, `a = b`, the lower triangle.
@@ -122,32 +139,26 @@ pub fn root(block: MatMut<'_, f64>, stack: &mut MemStack) -> Result<(), usize> {
 
 /// Divides rows by the factor of their diagonal block.
 pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
-    solve_lower_triangular_in_place(factor, rows.transpose_mut(), Par::Seq);
+    let multiplications = (factor.nrows() * factor.nrows() * rows.nrows()) as f64 / 2.0;
+    each(blocks_of_columns(rows.transpose_mut(), SIDE), multiplications, |rows| {
+        solve_lower_triangular_in_place(factor, rows, Par::Seq);
+    });
 }
 
 /// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major. `X = B L⁻ᵀ` takes the place of
-/// `B`. `None` where `goes_on` says no, which is asked between blocks of rows.
+/// `B`. `None` where `goes_on` says no, which is asked between blocks.
 pub fn subtract_coupling(
     c: &mut [f64],
     lower: MatRef<'_, f64>,
     mut b: MatMut<'_, f64>,
     goes_on: GoesOn<'_>,
 ) -> Option<()> {
-    let m = b.nrows();
-    let mut left = MatMut::from_column_major_slice_mut(c, m, m);
-    for begin in (0..m).step_by(BLOCK) {
-        if !goes_on() {
-            return None;
-        }
-        let count = BLOCK.min(m - begin);
-        let (before, rows) = b.as_mut().split_at_row_mut(begin);
-        let mut rows = rows.subrows_mut(0, count);
-        divide(lower, rows.as_mut());
-        let mut target = left.as_mut().subrows_mut(begin, count);
-        let (earlier, own) = target.as_mut().split_at_col_mut(begin);
-        matmul(earlier, Accum::Add, rows.as_ref(), before.transpose(), -1.0, Par::Seq);
-        subtract_square(own.subcols_mut(0, count), rows.as_ref());
-    }
+    let (m, multiplications) = (b.nrows(), (lower.nrows() * b.nrows() * b.ncols()) as f64 / 2.0);
+    let rows = blocks_of_columns(b.as_mut().transpose_mut(), BLOCK);
+    let divided =
+        each_while(rows, multiplications, |rows| divide(lower, rows.transpose_mut()), goes_on);
+    let left = MatMut::from_column_major_slice_mut(c, m, m);
+    divided.then(|| subtract_square(left, b.as_ref(), goes_on)).flatten()?;
     mirror(c, m);
     Some(())
 }
@@ -161,4 +172,52 @@ pub fn mirror(matrix: &mut [f64], size: usize) {
             }
         }
     }
+}
+
+/// `target - Aᵀ B`, contiguous column-major matrices of `n` rows; `target` has a row for each
+/// column of `A` and a column for each of `B`.
+pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
+    if n == 0 || target.is_empty() {
+        return;
+    }
+    let (rows, columns) = (a.len() / n, b.len() / n);
+    if rows * columns * n <= SMALL_PRODUCT {
+        for (target, b) in target.chunks_exact_mut(rows).zip(b.chunks_exact(n)) {
+            target.iter_mut().zip(a.chunks_exact(n)).for_each(|(entry, a)| *entry -= dot(a, b));
+        }
+        return;
+    }
+    let target = MatMut::from_column_major_slice_mut(target, rows, columns);
+    let blocks = blocks_of_columns(target.transpose_mut(), SIDE).enumerate();
+    let (a, b) = (
+        MatRef::from_column_major_slice(a, n, rows).transpose(),
+        MatRef::from_column_major_slice(b, n, columns),
+    );
+    each(blocks, reading(rows * n).max((rows * n * columns) as f64), |(block, target)| {
+        let a = a.subrows(SIDE * block, target.ncols());
+        matmul(target.transpose_mut(), Accum::Add, a, b, -1.0, Par::Seq);
+    });
+}
+
+/// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the
+/// `y_k` are contiguous, one after the other.
+pub fn subtract_outer(
+    target: &mut [f64],
+    (rows, columns): (usize, usize),
+    ld: usize,
+    x: &[f64],
+    y: &[f64],
+) {
+    if x.is_empty() {
+        return;
+    }
+    let count = x.len() / rows;
+    matmul(
+        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, ld),
+        Accum::Add,
+        MatRef::from_column_major_slice(x, rows, count),
+        MatRef::from_column_major_slice(y, columns, count).transpose(),
+        -1.0,
+        Par::Seq,
+    );
 }

@@ -1,9 +1,9 @@
-//! Elimination of some components of a symmetric positive definite system, by faer on the calling
-//! thread.
+//! Elimination of some components of a symmetric positive definite system, by faer.
 
 use faer::linalg::triangular_solve;
-use faer::{Mat, MatMut, MatRef, Par};
+use faer::{MatMut, MatRef, Par};
 
+use super::columns::Columns;
 use super::dense;
 use super::factor::{cholesky, cholesky_work};
 use super::matrix::Matrix;
@@ -16,8 +16,8 @@ use super::watched::{GoesOn, filled};
 pub struct Elimination {
     dropped: Vec<usize>,
     kept: Vec<usize>,
-    lower: Mat<f64>,
-    half: Mat<f64>,
+    lower: Columns,
+    half: Columns,
     schur: Vec<f64>,
 }
 
@@ -42,7 +42,7 @@ impl Elimination {
             column[j..].iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = own[i]);
         };
         let mut lower = filled((o, o), fill, goes_on)?;
-        cholesky(&mut lower, goes_on)?;
+        cholesky(lower.as_mut(), goes_on)?;
         // Written so that NaN is singular too.
         let regular = dropped
             .iter()
@@ -85,7 +85,7 @@ impl Elimination {
     pub fn transfer(&self, b: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();
         self.solve_half(&mut half);
-        let product = &self.half * as_column(&half);
+        let product = self.half.as_ref() * as_column(&half);
         product.col_as_slice(0).to_vec()
     }
 
@@ -93,7 +93,7 @@ impl Elimination {
     pub fn follow(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();
         self.solve_half(&mut half);
-        let taken = self.half.transpose() * as_column(x);
+        let taken = self.half.as_ref().transpose() * as_column(x);
         half.iter_mut().zip(taken.col_as_slice(0)).for_each(|(half, taken)| *half -= taken);
         self.solve_other_half(&mut half);
         half
@@ -108,7 +108,11 @@ impl Elimination {
     /// `L⁻ᵀ b`, in place.
     fn solve_other_half(&self, b: &mut [f64]) {
         let b = MatMut::from_column_major_slice_mut(b, self.lower.nrows(), 1);
-        triangular_solve::solve_upper_triangular_in_place(self.lower.transpose(), b, Par::Seq);
+        triangular_solve::solve_upper_triangular_in_place(
+            self.lower.as_ref().transpose(),
+            b,
+            Par::Seq,
+        );
     }
 }
 

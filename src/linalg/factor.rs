@@ -1,4 +1,4 @@
-//! Dense factors of square systems, by faer on the calling thread.
+//! Dense factors of square systems, by faer.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt;
@@ -6,12 +6,15 @@ use faer::linalg::lu::partial_pivoting;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::perm::PermRef;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, MatMut, Par};
 
+use super::columns::Columns;
 use super::dense;
-use super::small_products::{SMALL_PRODUCT, by_rows};
-use super::vector::dot;
-use super::watched::{BLOCK, GoesOn, SHORT, filled, lower_triangle};
+use super::small_products::by_rows;
+use super::watched::{
+    BLOCK, GoesOn, SHORT, SIDE, blocks_of_columns, columns_of, filled, lower_triangle,
+};
+use crate::workers::each;
 
 /// Operations of a Cholesky factorisation of `n` rows.
 pub fn cholesky_work(n: usize) -> f64 {
@@ -25,7 +28,7 @@ pub fn lu_work(n: usize) -> f64 {
 
 /// Factors of a square matrix whose entries are of size one: Cholesky's or `LU`.
 pub struct Factor {
-    factors: Mat<f64>,
+    factors: Columns,
     kind: Kind,
     /// Scratch memory of [`Self::solve`], and for how many right-hand sides it is large enough.
     memory: MemBuffer,
@@ -55,14 +58,14 @@ impl Factor {
         n: usize,
         symmetric: bool,
         least: f64,
-        fill: impl FnMut(usize, &mut [f64]),
+        fill: impl Fn(usize, &mut [f64]) + Sync,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
         let mut factors = filled((n, n), fill, goes_on)?;
         let kind = if symmetric {
-            cholesky(&mut factors, goes_on).map(|()| Kind::Cholesky)?
+            cholesky(factors.as_mut(), goes_on).map(|()| Kind::Cholesky)?
         } else {
-            lu(&mut factors, goes_on).map(Kind::Lu)?
+            lu(factors.as_mut(), goes_on).map(Kind::Lu)?
         };
         let pivot = |i: usize| match kind {
             Kind::Cholesky => factors[(i, i)].powi(2),
@@ -144,7 +147,7 @@ impl Factor {
 
 /// Overwrites the lower triangle of a symmetric matrix with Cholesky's factor; `None` if the matrix is not
 /// positive definite, or where `goes_on` says no.
-pub fn cholesky(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<()> {
+pub fn cholesky(matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<()> {
     cholesky_to_failure(matrix, goes_on).ok()
 }
 
@@ -152,11 +155,11 @@ pub fn cholesky(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<()> {
 /// is not positive definite, or one at which `goes_on` says no.
 pub fn first_not_definite(
     n: usize,
-    entry: impl Fn(usize, usize) -> f64,
+    entry: impl Fn(usize, usize) -> f64 + Sync,
     goes_on: GoesOn<'_>,
 ) -> Option<usize> {
     let Some(mut lower) = lower_triangle(n, entry, goes_on) else { return Some(0) };
-    cholesky_to_failure(&mut lower, goes_on).err()
+    cholesky_to_failure(lower.as_mut(), goes_on).err()
 }
 
 /// The width of the blocks in which `n` columns are factorised.
@@ -165,7 +168,7 @@ fn width_of_blocks(n: usize) -> usize {
 }
 
 /// Cholesky's factor, or the row of the pivot that is not positive, or of the block at which it was ended.
-fn cholesky_to_failure(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Result<(), usize> {
+fn cholesky_to_failure(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Result<(), usize> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
     let mut memory = MemBuffer::new(dense::scratch(most));
     for begin in (0..n).step_by(most) {
@@ -178,13 +181,13 @@ fn cholesky_to_failure(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Result<(),
         let found = dense::root(root.as_mut(), MemStack::new(&mut memory));
         found.map_err(|column| begin + column)?;
         dense::divide(root.as_ref(), below.as_mut());
-        dense::subtract_square(rest, below.as_ref());
+        dense::subtract_square(rest, below.as_ref(), &mut || true);
     }
     Ok(())
 }
 
 /// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
-pub fn lu(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
+pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
     let (mut forward, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
     let spec = faer::Spec::default();
@@ -213,13 +216,20 @@ pub fn lu(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
             .filter(|(to, from)| to != from)
             .collect();
         exchange(&mut forward, &moved);
-        for j in (0..begin).chain(begin + width..n) {
-            exchange(matrix.col_as_slice_mut(j), &moved);
-        }
-        let all = matrix.as_mut().submatrix_mut(begin, begin, left, left);
-        let (root, mut beside, below, rest) = all.split_at_mut(width, width);
-        solve_unit_lower_triangular_in_place(root.as_ref(), beside.as_mut(), Par::Seq);
-        matmul(rest, Accum::Add, below.as_ref(), beside.as_ref(), -1.0, Par::Seq);
+        let (before, all) = matrix.as_mut().split_at_col_mut(begin);
+        let (own, after) = all.split_at_col_mut(width);
+        let (root, below) = own.as_ref().get(begin.., ..).split_at_row(width);
+        let columns = blocks_of_columns(before, SIDE).map(|columns| (columns, false));
+        let columns = columns.chain(blocks_of_columns(after, SIDE).map(|columns| (columns, true)));
+        each(columns, (left * left * width) as f64, |(mut columns, is_after)| {
+            columns_of(columns.as_mut()).for_each(|column| exchange(column, &moved));
+            if is_after {
+                let (_, all) = columns.split_at_row_mut(begin);
+                let (mut beside, rest) = all.split_at_row_mut(width);
+                solve_unit_lower_triangular_in_place(root, beside.as_mut(), Par::Seq);
+                matmul(rest, Accum::Add, below, beside.as_ref(), -1.0, Par::Seq);
+            }
+        });
     }
     let mut inverse = vec![0; n];
     forward.iter().enumerate().for_each(|(to, &from)| inverse[from] = to);
@@ -230,52 +240,6 @@ pub fn lu(matrix: &mut Mat<f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
 fn exchange<T: Copy>(values: &mut [T], moved: &[(usize, usize)]) {
     let taken: Vec<T> = moved.iter().map(|&(_, from)| values[from]).collect();
     moved.iter().zip(taken).for_each(|(&(to, _), value)| values[to] = value);
-}
-
-/// `target - Aᵀ B`, contiguous column-major matrices of `n` rows; `target` has a row for each
-/// column of `A` and a column for each of `B`.
-pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
-    if n == 0 || target.is_empty() {
-        return;
-    }
-    let (rows, columns) = (a.len() / n, b.len() / n);
-    if rows * columns * n <= SMALL_PRODUCT {
-        for (target, b) in target.chunks_exact_mut(rows).zip(b.chunks_exact(n)) {
-            target.iter_mut().zip(a.chunks_exact(n)).for_each(|(entry, a)| *entry -= dot(a, b));
-        }
-        return;
-    }
-    matmul(
-        MatMut::from_column_major_slice_mut(target, rows, columns),
-        Accum::Add,
-        MatRef::from_column_major_slice(a, n, rows).transpose(),
-        MatRef::from_column_major_slice(b, n, columns),
-        -1.0,
-        Par::Seq,
-    );
-}
-
-/// `target - sum_k x_k y_kᵀ` for a matrix of `shape` with leading dimension `ld`; the `x_k` and the
-/// `y_k` are contiguous, one after the other.
-pub fn subtract_outer(
-    target: &mut [f64],
-    (rows, columns): (usize, usize),
-    ld: usize,
-    x: &[f64],
-    y: &[f64],
-) {
-    if x.is_empty() {
-        return;
-    }
-    let count = x.len() / rows;
-    matmul(
-        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, ld),
-        Accum::Add,
-        MatRef::from_column_major_slice(x, rows, count),
-        MatRef::from_column_major_slice(y, columns, count).transpose(),
-        -1.0,
-        Par::Seq,
-    );
 }
 
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use super::simd::{add_four, add_four_sizes, add_four_twice, vectorised};
+use super::simd::{AT_ONCE, add_columns, add_sizes, add_twice, vectorised};
 use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
+use crate::workers::{pieces, reading};
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
 pub const TILE: usize = 32;
@@ -108,21 +109,42 @@ impl<'a> Matrix<'a> {
 
     /// Adds the product with `x` to `sum`.
     pub fn add_product(&self, x: &[f64], sum: &mut [f64]) {
-        self.in_fours(
-            x,
+        pieces(sum, self.reading(), |first, sum| {
+            self.add_rows_of_product((0, x), first..first + sum.len(), sum);
+        });
+    }
+
+    /// Adds some rows of the product with `x`, which is that of the columns from `first` on, to `sum`.
+    pub fn add_rows_of_product(
+        &self,
+        (first, x): (usize, &[f64]),
+        rows: Range<usize>,
+        sum: &mut [f64],
+    ) {
+        self.by_columns(
+            (first, x),
+            rows,
             #[inline(always)]
-            |x, columns| add_four(sum, x, columns),
+            |x, columns| add_columns(sum, x, columns),
         );
+    }
+
+    /// The work of a product.
+    fn reading(&self) -> f64 {
+        reading(self.size * self.size)
     }
 
     /// The product of the absolute values of the entries with `size`.
     pub fn magnitude(&self, size: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; self.size];
-        self.in_fours(
-            size,
-            #[inline(always)]
-            |size, columns| add_four_sizes(&mut sum, size, columns),
-        );
+        pieces(&mut sum, self.reading(), |first, sum| {
+            self.by_columns(
+                (0, size),
+                first..first + sum.len(),
+                #[inline(always)]
+                |size, columns| add_sizes(sum, size, columns),
+            );
+        });
         sum
     }
 
@@ -142,32 +164,48 @@ impl<'a> Matrix<'a> {
     /// above 2e307 it is not a number. After S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point
     /// summation, part I*, SIAM J. Sci. Comput. 31 (2008) 189-224.
     pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64], terms: &[f64]) -> Vec<f64> {
-        let base: Vec<f64> = terms.iter().zip(b).map(|(t, b)| base_of_sum(t + b.abs())).collect();
-        let mut high: Vec<f64> = base.iter().zip(b).map(|(base, b)| base - b).collect();
-        let low = base.iter().zip(&high).zip(b).map(|((base, high), b)| (base - high) - b);
-        let mut low: Vec<f64> = low.collect();
-        self.in_fours(
-            x,
-            #[inline(always)]
-            |x, columns| add_four_twice((&mut high, &mut low), x, columns),
-        );
-        self.add_product(x_low, &mut low);
-        high.iter().zip(&base).zip(&low).map(|((high, base), low)| (high - base) + low).collect()
+        let mut residual: Vec<f64> =
+            terms.iter().zip(b).map(|(t, b)| base_of_sum(t + b.abs())).collect();
+        pieces(&mut residual, self.reading(), |first, base| {
+            let rows = first..first + base.len();
+            let b = &b[rows.clone()];
+            let mut high: Vec<f64> = base.iter().zip(b).map(|(base, b)| base - b).collect();
+            let low = base.iter().zip(&high).zip(b).map(|((base, high), b)| (base - high) - b);
+            let mut low: Vec<f64> = low.collect();
+            self.by_columns(
+                (0, x),
+                rows.clone(),
+                #[inline(always)]
+                |x, columns| add_twice((&mut high, &mut low), x, columns),
+            );
+            self.add_rows_of_product((0, x_low), rows, &mut low);
+            let parts = high.iter().zip(&low);
+            base.iter_mut().zip(parts).for_each(|(base, (high, low))| *base = (high - *base) + low);
+        });
+        residual
     }
 
-    /// Visits the columns with a factor that is not zero, in order and four at a time, with the widest vectors
-    /// that the processor has. What is missing to four has the factor 0.
+    /// Visits some rows of the columns with a factor that is not zero, in order and [`AT_ONCE`] at a time, with the widest
+    /// vectors that the processor has; the factors are those of the columns from `first` on. What is missing has the
+    /// factor 0.
     #[inline(always)]
-    fn in_fours(&self, factors: &[f64], mut visit: impl FnMut([f64; 4], [&'a [f64]; 4])) {
+    fn by_columns(
+        &self,
+        (first, factors): (usize, &[f64]),
+        rows: Range<usize>,
+        mut visit: impl FnMut([f64; AT_ONCE], [&'a [f64]; AT_ONCE]),
+    ) {
+        let column = |j: usize| &self.column(j)[rows.clone()];
         vectorised(
             #[inline(always)]
             || {
-                let mut left = factors.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
+                let factors = (first..).zip(factors);
+                let mut left = factors.filter(|(_, factor)| **factor != 0.0);
                 while let Some((first, &factor)) = left.next() {
-                    let (mut some, mut columns) = ([0.0; 4], [self.column(first); 4]);
+                    let (mut some, mut columns) = ([0.0; AT_ONCE], [column(first); AT_ONCE]);
                     some[0] = factor;
-                    for (c, (j, &factor)) in (1..some.len()).zip(&mut left) {
-                        (some[c], columns[c]) = (factor, self.column(j));
+                    for (c, (j, &factor)) in (1..AT_ONCE).zip(&mut left) {
+                        (some[c], columns[c]) = (factor, column(j));
                     }
                     visit(some, columns);
                 }

@@ -1,9 +1,10 @@
-//! Dense Cholesky factorisation of a semi-definite matrix, by faer on the calling thread.
+//! Dense Cholesky factorisation of a semi-definite matrix.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve;
-use faer::{Accum, Mat, MatMut, Par};
+use faer::{Accum, MatMut, MatRef, Par};
 
+use super::columns::Columns;
 use super::dense;
 use super::factor::cholesky;
 use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
@@ -13,7 +14,7 @@ use super::watched::{BLOCK, GoesOn, filled, lower_triangle};
 /// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on
 /// them.
 pub struct PivotedCholesky {
-    lower: Mat<f64>,
+    lower: Columns,
     independent: Vec<usize>,
     dependent: Vec<usize>,
 }
@@ -21,7 +22,7 @@ pub struct PivotedCholesky {
 impl PivotedCholesky {
     /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
     /// `None` if it is not positive semi-definite.
-    pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Self> {
+    pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64 + Sync) -> Option<Self> {
         Self::within(n, NEGLIGIBLE, entry, &mut || true)
     }
 
@@ -30,7 +31,7 @@ impl PivotedCholesky {
     pub fn within(
         size: usize,
         least: f64,
-        entry: impl Fn(usize, usize) -> f64,
+        entry: impl Fn(usize, usize) -> f64 + Sync,
         go_on: GoesOn<'_>,
     ) -> Option<Self> {
         // No pivot exceeds its diagonal entry.
@@ -44,7 +45,7 @@ impl PivotedCholesky {
             has_ended = has_ended || !go_on();
             !has_ended
         };
-        let regular = cholesky(&mut lower, asked).is_some();
+        let regular = cholesky(lower.as_mut(), asked).is_some();
         if has_ended {
             return None;
         }
@@ -56,7 +57,7 @@ impl PivotedCholesky {
         let (order, rank) = pivoted(&mut lower, least, go_on)?;
         dependent.splice(..0, order[rank..].iter().map(|&i| rows[i]));
         Some(PivotedCholesky {
-            lower: lower.as_ref().submatrix(0, 0, rank, rank).to_owned(),
+            lower,
             independent: order[..rank].iter().map(|&i| rows[i]).collect(),
             dependent,
         })
@@ -76,12 +77,15 @@ impl PivotedCholesky {
     pub fn solve(&self, y: &mut [f64]) {
         let n = self.independent.len();
         let mut y = MatMut::from_column_major_slice_mut(y, n, 1);
-        triangular_solve::solve_lower_triangular_in_place(
-            self.lower.as_ref(),
-            y.as_mut(),
-            Par::Seq,
-        );
-        triangular_solve::solve_upper_triangular_in_place(self.lower.transpose(), y, Par::Seq);
+        let lower = self.lower();
+        triangular_solve::solve_lower_triangular_in_place(lower, y.as_mut(), Par::Seq);
+        triangular_solve::solve_upper_triangular_in_place(lower.transpose(), y, Par::Seq);
+    }
+
+    /// The factor of the independent rows.
+    fn lower(&self) -> MatRef<'_, f64> {
+        let rank = self.independent.len();
+        self.lower.as_ref().get(..rank, ..rank)
     }
 
     /// Operations of [`Self::schur_complement`].
@@ -96,8 +100,8 @@ impl PivotedCholesky {
     pub fn schur_complement(
         &self,
         m: usize,
-        coupling: impl Fn(usize, usize) -> f64,
-        corner: impl Fn(usize, usize) -> f64,
+        coupling: impl Fn(usize, usize) -> f64 + Sync,
+        corner: impl Fn(usize, usize) -> f64 + Sync,
         goes_on: GoesOn<'_>,
     ) -> Option<Vec<f64>> {
         let n = self.independent.len();
@@ -111,7 +115,7 @@ impl PivotedCholesky {
                 schur[i + m * j] = corner(i, j);
             }
         }
-        dense::subtract_coupling(&mut schur, self.lower.as_ref(), half.as_mut(), goes_on)?;
+        dense::subtract_coupling(&mut schur, self.lower(), half.as_mut(), goes_on)?;
         Some(schur)
     }
 }
@@ -119,7 +123,7 @@ impl PivotedCholesky {
 /// Overwrites the lower triangle with Cholesky's factor of the rows in another order, of the largest pivot that is left
 /// first, panel by panel (C. Lucas, LAPACK working note 161, 2004). Returns that order, and how many pivots are above
 /// `least`; `None` where one is no number, or `goes_on` says no.
-fn pivoted(matrix: &mut Mat<f64>, least: f64, goes_on: GoesOn<'_>) -> Option<(Vec<usize>, usize)> {
+fn pivoted(matrix: &mut Columns, least: f64, goes_on: GoesOn<'_>) -> Option<(Vec<usize>, usize)> {
     let n = matrix.nrows();
     let mut order: Vec<usize> = (0..n).collect();
     for begin in (0..n).step_by(BLOCK) {
@@ -152,7 +156,7 @@ fn pivoted(matrix: &mut Mat<f64>, least: f64, goes_on: GoesOn<'_>) -> Option<(Ve
                 Par::Seq,
             );
             let root = left[j].sqrt();
-            let column = &mut matrix.col_as_slice_mut(j)[j..];
+            let column = &mut matrix.column_mut(j)[j..];
             column[0] = root;
             for (entry, left) in column[1..].iter_mut().zip(&mut left[j + 1..]) {
                 *entry /= root;
@@ -161,14 +165,14 @@ fn pivoted(matrix: &mut Mat<f64>, least: f64, goes_on: GoesOn<'_>) -> Option<(Ve
         }
         let all = matrix.as_mut().submatrix_mut(begin, begin, n - begin, n - begin);
         let (_, _, below, rest) = all.split_at_mut(end - begin, end - begin);
-        dense::subtract_square(rest, below.as_ref());
+        dense::subtract_square(rest, below.as_ref(), &mut || true);
     }
     Some((order, n))
 }
 
 /// Exchanges the rows and columns `j < p` of a symmetric matrix whose lower triangle is kept, but for the diagonal entry of
 /// `j`, which is lost.
-fn exchange(matrix: &mut Mat<f64>, j: usize, p: usize) {
+fn exchange(matrix: &mut Columns, j: usize, p: usize) {
     if j == p {
         return;
     }
@@ -213,7 +217,8 @@ mod tests {
                 }
             }
             for ended in 0..rank.div_ceil(BLOCK) {
-                let (mut again, mut asked) = (Mat::from_fn(n, n, gram), 0);
+                let again = lower_triangle(n, gram, &mut || true);
+                let (mut again, mut asked) = (again.expect("it is not ended"), 0);
                 let goes_on = &mut || {
                     asked += 1;
                     asked <= ended

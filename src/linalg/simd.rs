@@ -21,20 +21,15 @@ pub fn axpy(y: &mut [f64], a: f64, x: &[f64]) {
     }
 }
 
-/// `y += a x + b z`, in one pass over `y`; to be called inside [`vectorised`].
-#[inline(always)]
-pub fn axpy2(y: &mut [f64], (a, x): (f64, &[f64]), (b, z): (f64, &[f64])) {
-    for ((y, x), z) in y.iter_mut().zip(x).zip(z) {
-        *y += a * x + b * z;
-    }
-}
+/// Columns that are read in one pass: as fast as memory gives them, also by parts of their rows.
+pub const AT_ONCE: usize = 8;
 
-/// `y += x a`, four columns in one pass over `y`, in their order; to be called inside [`vectorised`].
+/// `y += x a`, the columns in one pass over `y`, in their order; to be called inside [`vectorised`].
 #[inline(always)]
-pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+pub fn add_columns<const N: usize>(y: &mut [f64], a: [f64; N], x: [&[f64]; N]) {
     let x = x.map(|x| &x[..y.len()]);
     for (i, y) in y.iter_mut().enumerate() {
-        *y = (((*y + x[0][i] * a[0]) + x[1][i] * a[1]) + x[2][i] * a[2]) + x[3][i] * a[3];
+        *y = (0..N).fold(*y, |sum, c| sum + x[c][i] * a[c]);
     }
 }
 
@@ -53,7 +48,7 @@ pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
             for (x, columns) in fours.zip(whole.chunks_exact(4 * size)) {
                 let column = |c: usize| &columns[c * size..(c + 1) * size];
                 let factors = [-x[0], -x[1], -x[2], -x[3]];
-                add_four(y, factors, [column(0), column(1), column(2), column(3)]);
+                add_columns(y, factors, [column(0), column(1), column(2), column(3)]);
             }
             for (x, column) in left.iter().zip(rest.chunks_exact(size)) {
                 axpy(y, -x, column);
@@ -62,21 +57,24 @@ pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
     );
 }
 
-/// [`add_four`] with the absolute values of `x`.
+/// [`add_columns`] with the absolute values of `x`.
 #[inline(always)]
-pub fn add_four_sizes(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+pub fn add_sizes<const N: usize>(y: &mut [f64], a: [f64; N], x: [&[f64]; N]) {
     let x = x.map(|x| &x[..y.len()]);
     for (i, y) in y.iter_mut().enumerate() {
-        let size = |c: usize| x[c][i].abs() * a[c];
-        *y = (((*y + size(0)) + size(1)) + size(2)) + size(3);
+        *y = (0..N).fold(*y, |sum, c| sum + x[c][i].abs() * a[c]);
     }
 }
 
-/// `high + low += x a`, four columns in one pass: `high` takes of each product what is a multiple of its
+/// `high + low += x a`, the columns in one pass: `high` takes of each product what is a multiple of its
 /// own last digit, without error as long as its exponent stays, and `low` the rest. To be called inside
 /// [`vectorised`].
 #[inline(always)]
-pub fn add_four_twice((high, low): (&mut [f64], &mut [f64]), a: [f64; 4], x: [&[f64]; 4]) {
+pub fn add_twice<const N: usize>(
+    (high, low): (&mut [f64], &mut [f64]),
+    a: [f64; N],
+    x: [&[f64]; N],
+) {
     let x = x.map(|x| &x[..high.len()]);
     for (i, (high, low)) in high.iter_mut().zip(low).enumerate() {
         for (a, x) in a.iter().zip(x) {

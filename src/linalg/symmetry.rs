@@ -1,8 +1,12 @@
 //! How far a square matrix is from a symmetric one, by square blocks: the rows of a block and the columns of the one across
 //! the diagonal are vectors of the processor.
 
-use super::matrix::{Matrix, TILE, tiles};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::matrix::{Matrix, TILE};
 use super::simd::vectorised;
+use crate::workers::{each, reading};
 
 /// Rows and columns of a square block that is compared with the one across the diagonal at once: a vector of doubles.
 const SIDE: usize = 4;
@@ -11,18 +15,32 @@ impl Matrix<'_> {
     /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
     /// across it, both times `root[i] root[j]`; `most` may be infinite.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        vectorised(
-            #[inline(always)]
-            || self.blocks_agree(root, apart, most) && self.others_agree(root, apart, most),
-        )
+        let whole = self.size() - self.size() % SIDE;
+        let differ = AtomicBool::new(false);
+        let compare = |first: usize| {
+            let columns = first..whole.min(first + TILE);
+            let agree = vectorised(
+                #[inline(always)]
+                || self.blocks_agree(columns, whole, (root, apart, most)),
+            );
+            differ.fetch_or(!agree, Ordering::Relaxed);
+        };
+        each((0..whole).step_by(TILE), reading(whole * whole), compare);
+        !differ.into_inner() && self.others_agree(root, apart, most)
     }
 
-    /// [`Self::agrees_across`] of the blocks of [`SIDE`] rows and columns that lie below the diagonal.
+    /// [`Self::agrees_across`] of the blocks of [`SIDE`] rows and columns that lie below the diagonal, in these columns and
+    /// the rows before `end`.
     #[inline(always)]
-    fn blocks_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        for (columns, rows) in tiles(self.size() - self.size() % SIDE, TILE) {
-            for j in columns.step_by(SIDE) {
-                let rows = rows.start.max(j + SIDE)..rows.end;
+    fn blocks_agree(
+        &self,
+        columns: Range<usize>,
+        end: usize,
+        (root, apart, most): (&[f64], f64, f64),
+    ) -> bool {
+        for first in (columns.start..end).step_by(TILE) {
+            for j in columns.clone().step_by(SIDE) {
+                let rows = first.max(j + SIDE)..end.min(first + TILE);
                 if rows.is_empty() {
                     continue;
                 }

@@ -1,9 +1,15 @@
 //! Long works on dense matrices, by blocks of columns between which it is asked if they go on.
 
-use faer::Mat;
+use faer::MatMut;
+
+use super::columns::Columns;
+use crate::workers::{each_while, reading};
 
 /// Columns of a block, which stays in a cache: between two of them a long work asks if it goes on.
 pub const BLOCK: usize = 64;
+
+/// Rows or columns of a part of a product, which a thread does at once: products of so many are fast.
+pub const SIDE: usize = 256;
 
 /// Additions and multiplications between two questions: some ten milliseconds.
 const WORK: usize = 1 << 28;
@@ -24,29 +30,50 @@ pub fn unended<T>(work: impl FnOnce(GoesOn<'_>) -> Option<T>) -> T {
     work(&mut || true).expect("nobody ends it")
 }
 
+/// The columns of a matrix, at most so many at a time.
+pub fn blocks_of_columns(
+    matrix: MatMut<'_, f64>,
+    most: usize,
+) -> impl Iterator<Item = MatMut<'_, f64>> {
+    let mut left = Some(matrix);
+    std::iter::from_fn(move || {
+        let all = left.take().filter(|all| all.ncols() > 0)?;
+        let count = most.min(all.ncols());
+        let (first, others) = all.split_at_col_mut(count);
+        left = Some(others);
+        Some(first)
+    })
+}
+
+/// The columns of a block of a matrix whose columns are contiguous.
+pub fn columns_of(block: MatMut<'_, f64>) -> impl Iterator<Item = &mut [f64]> {
+    block
+        .col_iter_mut()
+        .map(|column| column.try_as_col_major_mut().expect("columns are contiguous").as_slice_mut())
+}
+
 /// The matrix of so many rows and columns whose columns `fill(j, column)` writes; `None` where `goes_on` says no.
 pub fn filled(
     (rows, columns): (usize, usize),
-    mut fill: impl FnMut(usize, &mut [f64]),
+    fill: impl Fn(usize, &mut [f64]) + Sync,
     goes_on: GoesOn<'_>,
-) -> Option<Mat<f64>> {
-    let mut matrix = Mat::zeros(rows, columns);
+) -> Option<Columns> {
+    let mut matrix = Columns::zeros(rows, columns);
     let is_long = rows * columns > SHORT * SHORT;
-    for j in 0..columns {
-        if is_long && j % BLOCK == 0 && !goes_on() {
-            return None;
-        }
-        fill(j, matrix.col_as_slice_mut(j));
-    }
-    Some(matrix)
+    let blocks = blocks_of_columns(matrix.as_mut(), BLOCK).enumerate();
+    let fill = |(block, columns)| {
+        columns_of(columns).enumerate().for_each(|(j, column)| fill(BLOCK * block + j, column));
+    };
+    each_while(blocks, reading(rows * columns), fill, &mut || !is_long || goes_on())
+        .then_some(matrix)
 }
 
 /// The lower triangle `entry(i, j)` of an `n x n` matrix; `None` where `goes_on` says no.
 pub fn lower_triangle(
     n: usize,
-    entry: impl Fn(usize, usize) -> f64,
+    entry: impl Fn(usize, usize) -> f64 + Sync,
     goes_on: GoesOn<'_>,
-) -> Option<Mat<f64>> {
+) -> Option<Columns> {
     let fill = |j: usize, column: &mut [f64]| (j..n).for_each(|i| column[i] = entry(i, j));
     filled((n, n), fill, goes_on)
 }

@@ -6,7 +6,6 @@ use crate::monitor::{Monitor, Progress, ProgressFn, Stop};
 use crate::problem::Remembered;
 use crate::settings::Settings;
 use crate::solve::{CasePast, Solution, Status};
-use crate::workers::{SingleThread, Workers};
 
 /// Load cases of a block. A solve with one column waits for memory; from this number on it computes, and a
 /// block takes little memory beside the factor.
@@ -78,18 +77,6 @@ impl<'m> Series<'m> {
         cases: &[LoadCase<'_>],
         settings: &Settings,
         starts: Starts<'_>,
-        progress: Option<&mut ProgressFn<'_>>,
-    ) -> Vec<Result<Solution, Error>> {
-        self.solve_cases_with(&SingleThread, cases, settings, starts, progress)
-    }
-
-    /// As [`Self::solve_cases`], on threads that share what a model in full space factorises.
-    pub(crate) fn solve_cases_with(
-        &mut self,
-        workers: &dyn Workers,
-        cases: &[LoadCase<'_>],
-        settings: &Settings,
-        starts: Starts<'_>,
         mut progress: Option<&mut ProgressFn<'_>>,
     ) -> Vec<Result<Solution, Error>> {
         let n = self.model.dim * self.model.pairs;
@@ -117,7 +104,7 @@ impl<'m> Series<'m> {
                 };
                 let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
                 let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
-                let monitor = &mut Monitor::new(settings, told).with_workers(workers);
+                let monitor = &mut Monitor::new(settings, told);
                 let load = if is_cancelled { Err(not_begun()) } else { load };
                 let solution = load.and_then(|load| {
                     let past = (remembered.as_ref(), &mut *spread);

@@ -10,7 +10,6 @@ use crate::reduce::{
     PreconditionedReduction,
 };
 use crate::solve::MatrixFreeCase;
-use crate::workers::Workers;
 
 impl Model {
     /// A structure of which the host gives products and solutions in relative displacements alone. Loads and
@@ -59,10 +58,10 @@ impl Model {
         Ok(Model { dim, pairs, reduction })
     }
 
-    /// Hands over bodies whose stiffness is not formed, and whose factorisations `workers` share, with a load case.
+    /// Hands over bodies whose stiffness is not formed with a load case.
     pub(super) fn on_bodies<T>(
         &self,
-        (matrix_free, workers): (&dyn MatrixFreeReduction, &dyn Workers),
+        matrix_free: &dyn MatrixFreeReduction,
         case: &LoadCase<'_>,
         to: impl FnOnce(&mut dyn StiffnessOperator, &MatrixFreeCase<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
@@ -77,7 +76,7 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         };
-        to(&mut *matrix_free.bodies(workers), &case)
+        to(&mut *matrix_free.bodies(), &case)
     }
 
     /// Returns `true` if the model forms no stiffness in relative displacements: it is in full space.

@@ -6,7 +6,6 @@ use crate::certificate::{Certificate, Proof, certify, certify_in_units, prove};
 use crate::error::{Argument, Error};
 use crate::law::State;
 use crate::solve::certify_matrix_free;
-use crate::workers::SingleThread;
 
 impl Model {
     /// Measures relative displacements `d` of any origin on a load case.
@@ -18,8 +17,8 @@ impl Model {
     pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
         check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
         if let Some(matrix_free) = self.reduction.matrix_free() {
-            let by = (matrix_free, &SingleThread as _);
-            return self.on_bodies(by, case, |bodies, case| certify_matrix_free(bodies, case, d));
+            return self
+                .on_bodies(matrix_free, case, |bodies, case| certify_matrix_free(bodies, case, d));
         }
         self.reduced((case, None), |problem| Ok(certify(problem, d)))
     }

@@ -3,7 +3,6 @@
 use super::{BLOCK, Model};
 use crate::problem::{Dependence, FlexibilityForm, FrictionLaw};
 use crate::solve::{memory, memory_matrix_free, memory_of_flexibility, memory_of_ties};
-use crate::workers::SingleThread;
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
 const VECTORS: u64 = 10;
@@ -15,7 +14,7 @@ impl Model {
             return memory_of_flexibility(&form);
         }
         if let Some(matrix_free) = self.reduction.matrix_free() {
-            let inner = matrix_free.bodies(&SingleThread).inner();
+            let inner = matrix_free.bodies().inner();
             return matrix_free.factor_bytes() + memory_matrix_free(inner + self.dim * self.pairs);
         }
         // Dependent rows are solved with springs between bodies and contact.

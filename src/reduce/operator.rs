@@ -8,7 +8,6 @@ use crate::error::{Error, entry};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
-use crate::workers::Workers;
 
 /// The functions of a host. Vectors are relative displacements and forces of the pairs. A function that returns
 /// `Err` has failed; the message names its number.
@@ -160,7 +159,7 @@ impl Reduction for OperatorReduction {
 }
 
 impl MatrixFreeReduction for OperatorReduction {
-    fn bodies<'a>(&'a self, _workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a> {
+    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
         Box::new(InUse { operator: self, held: Vec::new() })
     }
 }

@@ -8,7 +8,6 @@ use crate::error::{Error, entry, index};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
-use crate::workers::Workers;
 
 /// What the host's preconditioner stands for: `A` with components of `d` held, and with springs.
 #[derive(Clone, Copy, Debug)]
@@ -216,7 +215,7 @@ impl Reduction for PreconditionedReduction {
 }
 
 impl MatrixFreeReduction for PreconditionedReduction {
-    fn bodies<'a>(&'a self, _workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a> {
+    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
         Box::new(InUse { operator: self, held_set: HeldSet::none(self.dim, self.pairs) })
     }
 

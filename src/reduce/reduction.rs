@@ -3,12 +3,11 @@
 use super::motion;
 use crate::error::{Error, Message};
 use crate::problem::{Dependence, FlexibilityForm, GoesOn, StiffnessOperator};
-use crate::workers::Workers;
 
 /// A reduction that changes variables and condenses nothing.
 pub trait MatrixFreeReduction {
-    /// The operator that a solver works on, for one load case at a time. `workers` share its factorisations.
-    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a>;
+    /// The operator that a solver works on, for one load case at a time.
+    fn bodies(&self) -> Box<dyn StiffnessOperator + '_>;
 
     /// Loads of all unknowns of [`Self::bodies`] in a load case.
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {

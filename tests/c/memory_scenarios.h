@@ -15,10 +15,10 @@
 #include <stdlib.h>
 
 enum { LOWER, UPPER };
-enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34, CUBE = 8 };
+enum { MOST_DOFS = 1500, PLANE = 60, SPACE = 30, SMALL = 6, MANY = 34, CUBE = 8, WIDE = 200 };
 
 struct world {
-    chain plane, space, small, loose;
+    chain plane, space, small, loose, wide;
     lattice cube;
     double *ellipses, *cohesion, *ties, *more;
     double *lcp, q[2 * PLANE], w[2 * PLANE], z[2 * PLANE];
@@ -93,6 +93,7 @@ static struct world *world_new(void)
     world->small = chain_new(2, SMALL, 0.5, 7);
     /* A body that nothing holds, pulled away. */
     world->loose = chain_new(2, SMALL, 0, 7);
+    world->wide = chain_new(2, WIDE, 0.5, 7);
     for (int64_t i = 0; i < world->loose.n; i++) world->loose.f[i] = i % 2 ? 0 : -1;
     world->ellipses = chain_numbers(3 * SPACE);
     world->cohesion = chain_numbers(3 * PLANE);
@@ -130,6 +131,7 @@ static void world_free(struct world *world)
     chain_free(&world->space);
     chain_free(&world->small);
     chain_free(&world->loose);
+    chain_free(&world->wide);
     free(world->ellipses);
     free(world->cohesion);
     free(world->ties);
@@ -343,6 +345,19 @@ static int32_t two_threads(struct world *w)
         status = signorini_model_solve(model, CASES, loads, NULL, gaps, SIGNORINI_LAW_COULOMB, w->mu,
                                        NULL, &settings, d, F, state, status_of_case, NULL, NULL);
     signorini_model_free(model);
+    return status;
+}
+
+/* A problem whose products two threads share. */
+static int32_t one_on_two_threads(struct world *w)
+{
+    const chain *c = &w->wide;
+    signorini_settings settings;
+    int32_t status = signorini_settings_default(&settings, sizeof settings);
+    settings.threads = 2;
+    if (!status)
+        status = signorini_solve(c->dim, c->pairs, c->K, c->n, c->f, c->gap, SIGNORINI_LAW_COULOMB,
+                                 c->mu, NULL, &settings, w->d, w->F, w->state, NULL, NULL);
     return status;
 }
 
@@ -706,6 +721,7 @@ static const struct scenario scenarios[] = {
     {"condensed model, three cases", condensed_model, 0, 0},
     {"load steps in a series", series, 0, 0},
     {"load cases on two threads", two_threads, 0, TWO_THREADS},
+    {"one problem on two threads", one_on_two_threads, 0, TWO_THREADS},
     {"reduction on two threads", shared_reduction, 0, TWO_THREADS},
     {"two bodies", two_bodies, 0, 0},
     {"sparse model", sparse_model, 0, 0},

@@ -2,7 +2,6 @@
 
 use std::sync::{Arc, Mutex};
 
-use signorini::SingleThread;
 use signorini::reduce::{HostOperator, OperatorReduction, Reduction};
 
 /// Springs of the three directions of each pair, and the vectors that they were asked for.
@@ -35,7 +34,7 @@ fn measured(each: [f64; 3], pairs: usize) -> (Option<Vec<f64>>, Vec<Vec<f64>>) {
     let reduction = OperatorReduction::new(Box::new(host), (3, pairs), None).ok();
     let units = |reduction: &OperatorReduction| {
         let operator = reduction.matrix_free().unwrap();
-        operator.bodies(&SingleThread).units().to_vec()
+        operator.bodies().units().to_vec()
     };
     let mut asked = std::mem::take(&mut *asked.lock().unwrap());
     asked.truncate(2);

@@ -1,6 +1,5 @@
 //! The frames of pairs, turned exactly along the axes of supports.
 
-use signorini::SingleThread;
 use signorini::reduce::{
     ContactPairs, Control, Indices, Reduction, SparseMatrix, SparseReduction, Triangle,
 };
@@ -31,13 +30,7 @@ fn frame(fixed: &[usize], normal: &[f64], tangent: Option<&[f64]>) -> Vec<Vec<f6
         ..ContactPairs::default()
     };
     let go_on = &mut |_, _| Ok(());
-    let control = Control {
-        order: None,
-        full_space: false,
-        workers: &SingleThread,
-        reserve: |_| true,
-        ask: go_on,
-    };
+    let control = Control { order: None, full_space: false, reserve: |_| true, ask: go_on };
     let reduction = SparseReduction::controlled(&matrix, fixed, &pairs, control).unwrap();
     reduction.frames().unwrap().chunks_exact(dim).map(<[f64]>::to_vec).collect()
 }

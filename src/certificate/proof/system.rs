@@ -112,12 +112,9 @@ impl<'c> System<'c> {
     }
 
     /// Writes columns of the scaled matrix.
-    pub fn columns(&self) -> impl FnMut(usize, &mut [f64]) {
+    pub fn columns(&self) -> impl Fn(usize, &mut [f64]) + Sync {
         let assembly = self.assembly();
-        let mut room = vec![0.0; self.contact.unknowns()];
-        move |j, entries| {
-            assembly.coefficients(j, 0, &assembly.image(j, 0, &mut room), entries);
-        }
+        move |j, entries| assembly.coefficients(j, 0, &assembly.image(j, 0), entries)
     }
 
     /// Displacements of the pair by a unit of the scaled unknown.

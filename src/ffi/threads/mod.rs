@@ -5,4 +5,4 @@
 mod system_thread;
 mod worker_pool;
 
-pub(super) use worker_pool::with_workers;
+pub(super) use worker_pool::with_threads;

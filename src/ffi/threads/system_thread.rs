@@ -8,22 +8,21 @@ use crate::ffi::guard;
 use crate::shortage;
 
 /// The life of a further thread.
-pub(super) struct Job<'w> {
-    number: usize,
+pub(super) struct Job {
     /// Bytes that the thread holds in reserve.
     memory: u64,
-    /// The work of each thread by its number; it does not unwind.
-    work: &'w (dyn Fn(usize) + Sync),
+    /// It does not unwind.
+    work: Box<dyn Fn() + Send + Sync>,
     is_prepared: AtomicBool,
     /// The caller waits here until the thread has obtained the memory that it keeps. The C library ends the process if
     /// it is refused memory there: no other request is made meanwhile.
     ready: Barrier,
 }
 
-impl<'w> Job<'w> {
+impl Job {
     /// A job for a thread.
-    pub(super) fn new(number: usize, memory: u64, work: &'w (dyn Fn(usize) + Sync)) -> Self {
-        Job { number, memory, work, is_prepared: AtomicBool::new(false), ready: Barrier::new(2) }
+    pub(super) fn new(memory: u64, work: Box<dyn Fn() + Send + Sync>) -> Self {
+        Job { memory, work, is_prepared: AtomicBool::new(false), ready: Barrier::new(2) }
     }
 
     /// `true` if its thread has what it keeps for itself, and does the work.
@@ -37,7 +36,7 @@ impl<'w> Job<'w> {
             guard::reserve_estimate(self.memory)?;
             self.is_prepared.store(true, Ordering::Relaxed);
             self.ready.wait();
-            (self.work)(self.number);
+            (self.work)();
             // The reserve of the thread holds nothing that outlives its work.
             shortage::check();
             Ok(0)
@@ -57,7 +56,7 @@ impl Thread {
     ///
     /// # Safety
     /// `job` lives until the thread is joined.
-    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Self> {
+    pub(super) unsafe fn start(job: &Job) -> Option<Self> {
         #[cfg(unix)]
         let masked = own::Masked::new();
         // SAFETY: by the caller's contract.
@@ -87,10 +86,10 @@ mod own {
 
     pub(super) type Handle = libc::pthread_t;
 
-    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Handle> {
+    pub(super) unsafe fn start(job: &Job) -> Option<Handle> {
         extern "C" fn begin(job: *mut c_void) -> *mut c_void {
             // SAFETY: the job of `start`, which lives until the thread is joined.
-            unsafe { (*job.cast::<Job<'_>>()).run() };
+            unsafe { (*job.cast::<Job>()).run() };
             null_mut()
         }
         let (mut attributes, mut thread) = (MaybeUninit::uninit(), MaybeUninit::uninit());
@@ -146,7 +145,7 @@ mod own {
 
     pub(super) type Handle = JoinHandle<()>;
 
-    pub(super) unsafe fn start(job: &Job<'_>) -> Option<Handle> {
+    pub(super) unsafe fn start(job: &Job) -> Option<Handle> {
         // SAFETY: by the caller's contract the job lives until the thread is joined.
         unsafe { Builder::new().spawn_unchecked(|| job.run()) }.ok()
     }

@@ -1,32 +1,46 @@
 //! Threads that share the parts of one work after another. They begin with the first work and end with the call.
 
 use std::cell::RefCell;
+use std::hint::spin_loop;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::rc::Rc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use super::system_thread::{Job, Thread};
 use crate::shortage::{self, Shortage};
-use crate::workers::{SingleThread, Workers};
+use crate::workers::{Workers, with_workers};
 
 /// Most threads: each has working memory, and of more than these none has enough to do.
 const MOST: usize = 64;
 
 /// Does `body` with so many threads, the calling one among them. Each further one holds `memory` bytes in reserve.
-pub(in crate::ffi) fn with_workers<T>(
-    threads: usize,
-    memory: u64,
-    body: impl FnOnce(&dyn Workers) -> T,
-) -> T {
+pub(in crate::ffi) fn with_threads<T>(threads: usize, memory: u64, body: impl FnOnce() -> T) -> T {
     if threads <= 1 {
-        return body(&SingleThread);
+        return with_workers(None, body);
     }
     let threads = threads.min(MOST);
-    let board = Board::new(threads);
-    let serve = |thread| board.serve(thread);
-    let jobs: Vec<_> = (1..threads).map(|number| Job::new(number, memory, &serve)).collect();
+    let board = Arc::new(Board::new(threads));
+    let job = |number| {
+        let board = Arc::clone(&board);
+        Job::new(memory, Box::new(move || board.serve(number)))
+    };
+    let jobs: Box<[_]> = (1..threads).map(job).collect();
     let started = RefCell::new(Vec::with_capacity(jobs.len()));
-    body(&WorkerPool { board: &board, jobs: &jobs, started })
+    with_workers(Some(Rc::new(WorkerPool { board, jobs, started })), body)
+}
+
+/// So long a thread looks for what it waits for before it sleeps: to wake it takes about as long, and many works follow
+/// each other at once.
+const LOOKING: Duration = Duration::from_micros(50);
+
+/// Looks for a condition for a while.
+fn look_for(condition: impl Fn() -> bool) {
+    let begin = Instant::now();
+    while !condition() && begin.elapsed() < LOOKING {
+        spin_loop();
+    }
 }
 
 /// A work whose parts are done.
@@ -53,6 +67,9 @@ struct Board {
     ended: Condvar,
     /// The next part.
     next: AtomicUsize,
+    /// [`Notes::count`] and [`Notes::busy`], for those that look for changes of them.
+    count: AtomicU64,
+    busy: AtomicUsize,
 }
 
 #[derive(Default)]
@@ -83,6 +100,8 @@ impl Board {
             posted: Condvar::new(),
             ended: Condvar::new(),
             next: AtomicUsize::new(0),
+            count: AtomicU64::new(0),
+            busy: AtomicUsize::new(0),
         }
     }
 
@@ -105,6 +124,7 @@ impl Board {
     fn serve(&self, thread: usize) {
         let mut seen = 0;
         loop {
+            look_for(|| self.count.load(Ordering::Relaxed) != seen);
             let notes = self.notes();
             let notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
             let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
@@ -127,6 +147,7 @@ impl Board {
                 });
             }
             notes.busy -= 1;
+            self.busy.store(notes.busy, Ordering::Relaxed);
             if notes.busy == 0 {
                 self.ended.notify_one();
             }
@@ -147,20 +168,20 @@ impl Board {
 }
 
 /// The calling thread and the others.
-struct WorkerPool<'b> {
-    board: &'b Board,
-    jobs: &'b [Job<'b>],
+struct WorkerPool {
+    board: Arc<Board>,
+    jobs: Box<[Job]>,
     started: RefCell<Vec<Thread>>,
 }
 
-impl WorkerPool<'_> {
+impl WorkerPool {
     fn start(&self) {
         let mut started = self.started.borrow_mut();
         if !started.is_empty() {
             return;
         }
-        for job in self.jobs {
-            // SAFETY: the jobs live longer than the pool, which joins the thread when it is dropped.
+        for job in &self.jobs {
+            // SAFETY: the pool owns the job, and joins the thread when it is dropped.
             let Some(thread) = (unsafe { Thread::start(job) }) else { return };
             started.push(thread);
             self.board.notes().present += usize::from(job.is_prepared());
@@ -168,7 +189,7 @@ impl WorkerPool<'_> {
     }
 }
 
-impl Workers for WorkerPool<'_> {
+impl Workers for WorkerPool {
     fn threads(&self) -> usize {
         self.board.threads
     }
@@ -180,7 +201,7 @@ impl Workers for WorkerPool<'_> {
         go_on: &mut dyn FnMut() -> bool,
     ) {
         self.start();
-        let board = self.board;
+        let board = &*self.board;
         // SAFETY: only the lifetime changes; no thread uses the work when this function ends, however it does.
         let lasting = unsafe {
             std::mem::transmute::<*const (dyn Fn(usize, usize) + Sync + '_), *const Work>(work)
@@ -190,11 +211,14 @@ impl Workers for WorkerPool<'_> {
         notes.work = Some(Posted { work: lasting, parts });
         notes.count += 1;
         notes.busy = notes.present;
+        board.busy.store(notes.busy, Ordering::Relaxed);
+        board.count.store(notes.count, Ordering::Relaxed);
         drop(notes);
         board.posted.notify_all();
         let own =
             catch_unwind(AssertUnwindSafe(|| board.share(parts, &|part| work(0, part), go_on)));
         board.next.store(parts, Ordering::Relaxed);
+        look_for(|| board.busy.load(Ordering::Relaxed) == 0);
         let notes = board.notes();
         let mut notes = board.wait(&board.ended, notes, |now| now.busy > 0);
         notes.work = None;
@@ -211,9 +235,11 @@ impl Workers for WorkerPool<'_> {
     }
 }
 
-impl Drop for WorkerPool<'_> {
+impl Drop for WorkerPool {
     fn drop(&mut self) {
         self.board.notes().is_over = true;
+        // No work has this number: who looks for the next one looks no further.
+        self.board.count.store(u64::MAX, Ordering::Relaxed);
         self.board.posted.notify_all();
         for thread in self.started.get_mut().drain(..) {
             thread.join();

@@ -8,7 +8,6 @@ use super::solve::{backward, forward};
 use crate::linalg::sparse_matrix::Csc;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::watched::GoesOn;
-use crate::workers::Workers;
 
 /// The values of a factor, or the memory of one.
 #[derive(Default)]
@@ -19,12 +18,8 @@ pub struct SparseCholesky(Plan);
 
 impl SparseCholesky {
     /// Analyses the pattern of `lower`, of which every diagonal entry is stored.
-    pub fn new(
-        lower: &Csc,
-        workers: &dyn Workers,
-        progress: &mut FactorProgress<'_>,
-    ) -> Result<Self, Failure> {
-        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, workers, progress)?))
+    pub fn new(lower: &Csc, progress: &mut FactorProgress<'_>) -> Result<Self, Failure> {
+        Ok(SparseCholesky(Plan::new(lower, lower.ncols(), None, progress)?))
     }
 
     /// Bytes of a factorisation, with those of the matrix.
@@ -36,10 +31,9 @@ impl SparseCholesky {
     pub fn diagnosed(
         &self,
         mut lower: Csc,
-        workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Values, Failure> {
-        Ok(Values(diagnosed(&self.0, &mut lower, workers, progress)?.0))
+        Ok(Values(diagnosed(&self.0, &mut lower, progress)?.0))
     }
 
     /// Factorises a matrix of the pattern in the memory of `values`, which are its factor then; `false` if it is not definite
@@ -48,11 +42,10 @@ impl SparseCholesky {
         &self,
         lower: &Csc,
         values: &mut Values,
-        workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<bool, Failure> {
         let parts = (&self.0.structure, &self.0.schedule);
-        match factorised(parts, lower, &mut values.0, workers, progress) {
+        match factorised(parts, lower, &mut values.0, progress) {
             Ok(Numeric { weakest, .. }) => Ok(weakest.is_none_or(|(_, pivot)| pivot > NEGLIGIBLE)),
             Err(Unfinished::Pivot(_)) => Ok(false),
             Err(Unfinished::Failed(failure)) => Err(failure),

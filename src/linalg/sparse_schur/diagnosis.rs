@@ -11,24 +11,22 @@ use crate::linalg::tolerances::{
 };
 use crate::linalg::vector::{norm_inf, normalise, sizes};
 use crate::linalg::watched::GoesOn;
-use crate::workers::Workers;
 
 /// Factorises `matrix`, which stays as it is, to the values of the panels and the rest; or says what motion of the eliminated rows nothing resists, and
 /// leaves it with a larger diagonal.
 pub fn diagnosed(
     plan: &Plan,
     matrix: &mut Csc,
-    workers: &dyn Workers,
     progress: &mut FactorProgress<'_>,
 ) -> Result<(Vec<f64>, Numeric), Failure> {
     let (structure, mut values) = (&plan.structure, Vec::new());
     let parts = (structure, &plan.schedule);
-    let (numeric, singular) = match factorised(parts, matrix, &mut values, workers, progress) {
+    let (numeric, singular) = match factorised(parts, matrix, &mut values, progress) {
         Ok(numeric) => (numeric, false),
         Err(Unfinished::Failed(failure)) => return Err(failure),
         Err(Unfinished::Pivot(_)) => {
             (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
-            match factorised(parts, matrix, &mut values, workers, progress) {
+            match factorised(parts, matrix, &mut values, progress) {
                 Ok(numeric) => (numeric, true),
                 Err(Unfinished::Failed(failure)) => return Err(failure),
                 Err(Unfinished::Pivot(place)) => {

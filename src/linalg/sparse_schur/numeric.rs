@@ -18,7 +18,6 @@ use super::schur_update;
 use super::structure::Structure;
 use crate::linalg::dense::mirror;
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
-use crate::workers::Workers;
 
 /// Numbers that are cleared between two questions whether to go on: some milliseconds.
 const CLEARED: usize = 1 << 21;
@@ -58,7 +57,6 @@ pub fn factorised(
     (structure, schedule): (&Structure, &Schedule),
     lower: &Csc,
     values: &mut Vec<f64>,
-    workers: &dyn Workers,
     progress: &mut FactorProgress<'_>,
 ) -> Result<Numeric, Unfinished> {
     let (kept, mut schur) = (structure.kept(), Vec::new());
@@ -68,7 +66,7 @@ pub fn factorised(
     let entries = &Entries::new(structure, lower, &mut schur)?;
     progress(FactorStep::HasDone(0.0))?;
     let done = &Done::default();
-    let parallel = &mut Parallel::new(structure, (workers, progress), done, schedule.operations)?;
+    let parallel = &mut Parallel::new(structure, progress, done, schedule.operations)?;
     let source = Source { structure, schedule, entries, done };
     let below = subtrees(source, values, parallel)?;
     let above = above(source, values, parallel)?;

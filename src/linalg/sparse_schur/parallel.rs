@@ -1,7 +1,7 @@
-//! The parts of a factorisation on the threads of `Workers`, their working memory, its count of operations, and its progress.
+//! The parts of a factorisation on several threads, their working memory, its count of operations, and its progress.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use faer::dyn_stack::MemBuffer;
 
@@ -9,13 +9,11 @@ use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::graph::filled;
 use super::structure::{PANEL, Structure};
 use crate::linalg::dense;
-use crate::workers::{SingleThread, Workers};
+pub use crate::workers::locked;
+use crate::workers::{share, threads};
 
 /// Multiplications between two questions whether to go on: some milliseconds.
 const BETWEEN: f64 = 3e8;
-
-/// A work of fewer multiplications stays on the calling thread: to wake another one takes about a tenth of their time.
-const FEW: f64 = 1e7;
 
 /// Rows of a block: products of it are fast, and its changes stay in the cache.
 pub const ROWS: usize = 512;
@@ -31,9 +29,8 @@ impl Done {
     }
 }
 
-/// The threads with their working memory, and the progress that they make together.
+/// The working memory of each thread, and the progress that they make together.
 pub struct Parallel<'w> {
-    workers: &'w dyn Workers,
     workspaces: Vec<Mutex<Workspace>>,
     progress: &'w mut FactorProgress<'w>,
     done: &'w Done,
@@ -42,19 +39,19 @@ pub struct Parallel<'w> {
 }
 
 impl<'w> Parallel<'w> {
-    /// Threads for `all` multiplications, counted in `done`.
+    /// Working memory for `all` multiplications, counted in `done`.
     ///
     /// # Errors
     /// Not enough memory.
     pub fn new(
         structure: &Structure,
-        (workers, progress): (&'w dyn Workers, &'w mut FactorProgress<'w>),
+        progress: &'w mut FactorProgress<'w>,
         done: &'w Done,
         all: f64,
     ) -> Result<Self, Failure> {
-        let workspaces = (0..workers.threads()).map(|_| Workspace::new(structure).map(Mutex::new));
+        let workspaces = (0..threads()).map(|_| Workspace::new(structure).map(Mutex::new));
         let workspaces = workspaces.collect::<Result<_, _>>()?;
-        Ok(Parallel { workers, workspaces, progress, done, all: all.max(1.0), asked: 0.0 })
+        Ok(Parallel { workspaces, progress, done, all: all.max(1.0), asked: 0.0 })
     }
 
     /// Does the parts of a work of so many `operations`, each with the working memory of its thread.
@@ -77,9 +74,8 @@ impl<'w> Parallel<'w> {
             }
             answer.is_ok()
         };
-        let workers = if operations < FEW { &SingleThread } else { self.workers };
         let work = |thread: usize, part: usize| work(&mut locked(&workspaces[thread]), part);
-        workers.run(parts, &work, &mut go_on);
+        share(parts, operations, &work, &mut go_on);
         Ok(answer?)
     }
 
@@ -87,11 +83,6 @@ impl<'w> Parallel<'w> {
     pub fn own_workspace(&mut self) -> &mut Workspace {
         self.workspaces[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// The value of a mutex that each thread locks for a part of its own.
-pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Working memory for any panel.

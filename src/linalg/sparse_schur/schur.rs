@@ -11,7 +11,6 @@ use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, sizes};
 use crate::linalg::watched::GoesOn;
-use crate::workers::Workers;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
 /// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
@@ -36,12 +35,11 @@ impl SparseSchur {
     pub fn new(
         lower: Csc,
         eliminated: usize,
-        workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let plan = Plan::new(&lower, eliminated, None, workers, progress)?;
+        let plan = Plan::new(&lower, eliminated, None, progress)?;
         progress(FactorStep::Needs(plan.bytes()))?;
-        Self::planned(plan, lower, true, workers, progress)
+        Self::planned(plan, lower, true, progress)
     }
 
     /// Factorises the matrix of which `plan` was made. Free motions are looked for if `C` has few rows or small
@@ -50,10 +48,9 @@ impl SparseSchur {
         plan: Plan,
         mut lower: Csc,
         always: bool,
-        workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let (values, Numeric { schur, .. }) = diagnosed(&plan, &mut lower, workers, progress)?;
+        let (values, Numeric { schur, .. }) = diagnosed(&plan, &mut lower, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };

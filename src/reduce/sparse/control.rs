@@ -2,7 +2,6 @@
 
 use crate::error::{Argument, Error, Limit, entry, index};
 use crate::linalg::sparse_schur::{FactorStep, Stopped};
-use crate::workers::Workers;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
 /// in all, 0 before they are known.
@@ -14,8 +13,6 @@ pub struct Control<'a> {
     pub order: Option<&'a [usize]>,
     /// `true`: no condensed matrix is formed.
     pub full_space: bool,
-    /// Who factorises.
-    pub workers: &'a dyn Workers,
     /// Obtains so many bytes for a condensed matrix before it is begun; `false`: the system refuses them.
     pub reserve: fn(u64) -> bool,
     /// Asked between steps.

@@ -16,7 +16,6 @@ use crate::linalg::sparse_schur::{
     FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
 };
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, StiffnessOperator};
-use crate::workers::{SingleThread, Workers};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -50,18 +49,16 @@ impl FullSpace {
         matrix: Csc,
         inner: usize,
         dim: usize,
-        workers: &dyn Workers,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let cholesky = SparseCholesky::new(&matrix, workers, progress)?;
+        let cholesky = SparseCholesky::new(&matrix, progress)?;
         progress(FactorStep::Needs(factor_bytes(&cholesky, &matrix)))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
         let (kept, last) = (Mutex::default(), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
-        let values =
-            space.cholesky.diagnosed(space.restricted(&held_set, 0.0), workers, progress)?;
+        let values = space.cholesky.diagnosed(space.restricted(&held_set, 0.0), progress)?;
         let largest = space.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
         for unit in &mut space.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
@@ -106,10 +103,10 @@ impl FullSpace {
         matrix
     }
 
-    /// A new user of the matrix, whose factors `workers` share.
-    pub(super) fn in_use<'a>(&'a self, workers: &'a dyn Workers) -> InUse<'a> {
+    /// A new user of the matrix.
+    pub(super) fn in_use(&self) -> InUse<'_> {
         let factor = take(&mut *self.kept.lock().unwrap_or_else(PoisonError::into_inner));
-        InUse { space: self, factor, workers }
+        InUse { space: self, factor }
     }
 
     /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
@@ -119,7 +116,7 @@ impl FullSpace {
         loads: &[f64],
         goes_on: GoesOn<'_>,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let mut user = self.in_use(&SingleThread);
+        let mut user = self.in_use();
         if !user.hold_all(goes_on)? {
             return Ok(None);
         }
@@ -138,7 +135,7 @@ impl FullSpace {
         if let Some(x) = self.last.of(loads, |x| &x[self.inner..] == d) {
             return Ok(x);
         }
-        let mut user = self.in_use(&SingleThread);
+        let mut user = self.in_use();
         user.hold_all(&mut || true)?;
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
@@ -175,7 +172,6 @@ const VECTORS: usize = 16;
 pub(super) struct InUse<'a> {
     space: &'a FullSpace,
     factor: Factor,
-    workers: &'a dyn Workers,
 }
 
 impl InUse<'_> {
@@ -247,7 +243,7 @@ impl StiffnessOperator for InUse<'_> {
             let matrix = self.space.restricted(held_set, soft);
             let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Stopped) };
             let values = &mut self.factor.values;
-            match self.space.cholesky.factor(&matrix, values, self.workers, asked) {
+            match self.space.cholesky.factor(&matrix, values, asked) {
                 Ok(true) => {
                     self.factor.held_set = Some(held_set.clone());
                     return Ok(true);

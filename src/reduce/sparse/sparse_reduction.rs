@@ -16,7 +16,6 @@ use crate::problem::{Dependence, GoesOn, StiffnessOperator};
 use crate::reduce::equations::Dependents;
 use crate::reduce::memory::memory;
 use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
-use crate::workers::{SingleThread, Workers};
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
 pub struct SparseReduction {
@@ -57,13 +56,7 @@ impl SparseReduction {
             matrix,
             fixed,
             pairs,
-            Control {
-                order: None,
-                full_space: false,
-                workers: &SingleThread,
-                reserve: |_| true,
-                ask: &mut |_, _| Ok(()),
-            },
+            Control { order: None, full_space: false, reserve: |_| true, ask: &mut |_, _| Ok(()) },
         )
     }
 
@@ -102,8 +95,8 @@ impl SparseReduction {
             })?;
         let free = variables.free();
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
-        let (rank, workers, reserve) = (rank.as_deref(), control.workers, control.reserve);
-        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, workers, reserve };
+        let (rank, reserve) = (rank.as_deref(), control.reserve);
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, reserve };
         let choice = (control.full_space, dependent.is_none());
         let mut engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
@@ -232,9 +225,9 @@ impl Reduction for SparseReduction {
 }
 
 impl MatrixFreeReduction for SparseReduction {
-    fn bodies<'a>(&'a self, workers: &'a dyn Workers) -> Box<dyn StiffnessOperator + 'a> {
+    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
         match &self.engine {
-            Engine::FullSpace(space) => Box::new(space.in_use(workers)),
+            Engine::FullSpace(space) => Box::new(space.in_use()),
             Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
         }
     }
@@ -260,7 +253,6 @@ struct Parts<'a> {
     rank: Option<&'a [usize]>,
     /// Each pair has a slave of its own.
     own: bool,
-    workers: &'a dyn Workers,
     reserve: fn(u64) -> bool,
 }
 
@@ -280,10 +272,10 @@ impl Engine {
         }
         if has_room {
             let progress = &mut |step| asked.goes_on(step);
-            let plan = Plan::new(&matrix, parts.inner, parts.rank, parts.workers, progress)?;
+            let plan = Plan::new(&matrix, parts.inner, parts.rank, progress)?;
             if progress(FactorStep::Needs(plan.bytes())).is_ok() {
                 // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
-                return SparseSchur::planned(plan, matrix, !parts.own, parts.workers, progress)
+                return SparseSchur::planned(plan, matrix, !parts.own, progress)
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             if !(possible && asked.lacks_memory()) {
@@ -292,7 +284,7 @@ impl Engine {
             asked.begin_anew();
         }
         let progress = &mut |step| asked.goes_on(step);
-        FullSpace::new(matrix, parts.inner, parts.dim, parts.workers, progress)
+        FullSpace::new(matrix, parts.inner, parts.dim, progress)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }

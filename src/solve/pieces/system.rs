@@ -18,10 +18,12 @@
 
 use super::equations::{Equations, by_pairs};
 use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
-use crate::linalg::factor::{Factor, cholesky_work, lu_work, subtract_product};
+use crate::linalg::dense::subtract_product;
+use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
-use crate::linalg::watched::GoesOn;
+use crate::linalg::watched::{BLOCK, GoesOn};
+use crate::workers::{each, reading};
 
 /// The border of a system: `border . (dy, ds) = wanted`.
 pub struct Border<'b> {
@@ -225,16 +227,18 @@ impl System {
 fn rows(equations: &Equations<'_>, held: &[usize], unknowns: &[Unknown]) -> Vec<f64> {
     let (dim, matrix) = (equations.dim, equations.matrix);
     let at: Vec<usize> = unknowns.iter().map(|own| dim * own.pair + own.component).collect();
-    let mut rows = Vec::with_capacity(held.len() * unknowns.len());
-    for &i in held {
-        // The columns of a symmetric matrix are contiguous, its rows are not.
-        if equations.symmetric {
+    let mut rows = vec![0.0; held.len() * at.len()];
+    // A block of rows is a part for a thread.
+    let blocks = rows.chunks_mut((BLOCK * at.len()).max(1)).zip(held.chunks(BLOCK));
+    each(blocks, reading(held.len() * at.len()), |(rows, held)| {
+        for (row, &i) in rows.chunks_exact_mut(at.len()).zip(held) {
             let column = matrix.column(i);
-            rows.extend(at.iter().map(|&j| column[j]));
-        } else {
-            rows.extend(at.iter().map(|&j| matrix.at(i, j)));
+            for (entry, &j) in row.iter_mut().zip(&at) {
+                // The columns of a symmetric matrix are contiguous, its rows are not.
+                *entry = if equations.symmetric { column[j] } else { matrix.at(i, j) };
+            }
         }
-    }
+    });
     rows
 }
 
@@ -251,22 +255,18 @@ struct Coefficients<'s> {
 
 impl<'s> Coefficients<'s> {
     /// `K_s dd` for a unit of the unknown `j`, the components from `from` on.
-    fn image<'i>(&self, j: usize, from: usize, room: &'i mut [f64]) -> Image<'i>
-    where
-        's: 'i,
-    {
+    fn image(&self, j: usize, from: usize) -> Image<'s> {
         match self.s == 1.0 {
-            true => self.assembly.image(j, from, room),
-            false => self.assembly.led_image((self.s, self.pairs), j, from, room),
+            true => self.assembly.image(j, from),
+            false => self.assembly.led_image((self.s, self.pairs), j, from),
         }
     }
 
     /// By Cholesky's method where the system is symmetric and definite.
     fn factor(&self, goes_on: GoesOn<'_>) -> Option<Factor> {
-        let mut room = vec![0.0; self.equations.root.len()];
         let (dim, unknowns) = (self.equations.dim, self.unknowns);
-        let mut fill = |j: usize, first: usize, entries: &mut [f64]| {
-            let image = self.image(j, dim * unknowns[first].pair, &mut room);
+        let fill = |j: usize, first: usize, entries: &mut [f64]| {
+            let image = self.image(j, dim * unknowns[first].pair);
             self.assembly.coefficients(j, first, &image, entries);
         };
         let size = unknowns.len();
@@ -281,15 +281,13 @@ impl<'s> Coefficients<'s> {
     }
 
     fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
-        let (dim, root) = (self.equations.dim, &self.equations.root);
-        let unknowns = self.unknowns;
+        let (dim, unknowns) = (self.equations.dim, self.unknowns);
         let n = unknowns.len();
         let reactions = self.reactions(border);
         let (row_scale, column_scale) = (border.unit.recip(), border.unit);
-        let mut room = vec![0.0; root.len()];
         let fill = |j: usize, entries: &mut [f64]| {
             if let Some(unknown) = unknowns.get(j) {
-                let image = self.image(j, 0, &mut room);
+                let image = self.image(j, 0);
                 self.assembly.coefficients(j, 0, &image, entries);
                 // k b of the unknown, less what the reactions take.
                 let own = self.pairs[unknown.pair].scaled(&border.normal[unknown.pair]);

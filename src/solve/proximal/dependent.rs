@@ -111,7 +111,6 @@ fn condensed(
         entries.push((kept + i, kept + i, spring));
     }
     let all = from_entries((kept + size, kept + size), entries.into_iter()).map_err(memory)?;
-    let workers = monitor.workers();
     let mut stopped = None;
     let watched = &mut |_| {
         monitor.goes_on().map_err(|stop| {
@@ -119,7 +118,7 @@ fn condensed(
             Stopped
         })
     };
-    match (SparseSchur::new(all, kept, workers, watched), stopped) {
+    match (SparseSchur::new(all, kept, watched), stopped) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),
         (Err(Failure::OutOfMemory), None) => {

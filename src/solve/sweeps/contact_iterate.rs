@@ -5,11 +5,11 @@
 //! costs nothing.
 
 use super::Iterate;
+use super::blocks::over_all;
 use super::drift::contact_recession;
 use crate::certificate::eta_of;
 use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::simd;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 
@@ -21,45 +21,12 @@ pub fn sweep(
     (d, force): (&mut [f64], &mut [f64]),
     omega: f64,
 ) -> f64 {
-    simd::vectorised(
-        #[inline(always)]
-        || sweep_pairs(laws, matrix, d, force, omega),
-    )
-}
-
-#[inline(always)]
-fn sweep_pairs(
-    laws: &[PairLaw],
-    matrix: Matrix<'_>,
-    d: &mut [f64],
-    force: &mut [f64],
-    omega: f64,
-) -> f64 {
     let dim = matrix.size() / laws.len().max(1);
-    let mut change = 0.0;
-    for (pair, law) in laws.iter().enumerate() {
-        let i = dim * pair;
+    let relax = |i: usize, force: &[f64]| {
         let coupling = &matrix.column(i)[i + 1..i + dim];
-        let (steps, moved) = law.relax(&mut d[i..i + dim], &force[i..i + dim], coupling, omega);
-        change += moved;
-        add_columns(matrix, i, &steps[..dim], force);
-    }
-    change.sqrt()
-}
-
-#[inline(always)]
-fn add_columns(matrix: Matrix<'_>, first: usize, steps: &[f64], force: &mut [f64]) {
-    let mut moved = steps
-        .iter()
-        .enumerate()
-        .filter(|(_, step)| **step != 0.0)
-        .map(|(component, step)| (*step, matrix.column(first + component)));
-    while let Some(one) = moved.next() {
-        match moved.next() {
-            Some(two) => simd::axpy2(force, one, two),
-            None => simd::axpy(force, one.0, one.1),
-        }
-    }
+        laws[i / dim].relax(&mut d[i..i + dim], force, coupling, omega)
+    };
+    over_all(matrix, dim.max(1), force, relax)
 }
 
 /// An iterate with its force.

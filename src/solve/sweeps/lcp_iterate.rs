@@ -1,8 +1,8 @@
 //! Sweeps on an LCP with lower bounds, variable by variable.
 
 use super::Iterate;
+use super::blocks::over_all;
 use super::drift::rigid_part;
-use crate::linalg::simd;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
@@ -10,23 +10,14 @@ use crate::problem::BoundedLcp;
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
 /// the change in the norm of the diagonal of `M`.
 pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
-    simd::vectorised(
-        #[inline(always)]
-        || {
-            let mut change = 0.0;
-            for i in 0..x.len() {
-                let column = lcp.matrix.column(i);
-                let value = lcp.admissible(i, x[i] - omega * w[i] / column[i]);
-                let step = value - x[i];
-                if step != 0.0 {
-                    x[i] = value;
-                    change += column[i] * step * step;
-                    simd::axpy(w, step, column);
-                }
-            }
-            change.sqrt()
-        },
-    )
+    let relax = |i: usize, w: &[f64]| {
+        let unit = lcp.matrix.at(i, i);
+        let value = lcp.admissible(i, x[i] - omega * w[0] / unit);
+        let step = value - x[i];
+        x[i] = value;
+        ([step, 0.0, 0.0], unit * step * step)
+    };
+    over_all(lcp.matrix, 1, w, relax)
 }
 
 /// An iterate with its `w`.

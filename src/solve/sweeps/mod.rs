@@ -1,5 +1,6 @@
 //! Projected over-relaxed Gauss–Seidel (Cryer, Christopherson; paper, section 2).
 
+mod blocks;
 mod contact_iterate;
 mod drift;
 mod driver;

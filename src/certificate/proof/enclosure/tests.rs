@@ -16,7 +16,7 @@ const SYSTEMS: usize = 50;
 /// The scaled matrix of a system, column-major.
 fn matrix(system: &System<'_>) -> Vec<f64> {
     let size = system.unknowns.len();
-    let (mut all, mut columns) = (vec![0.0; size * size], system.columns());
+    let (mut all, columns) = (vec![0.0; size * size], system.columns());
     all.chunks_exact_mut(size).enumerate().for_each(|(j, column)| columns(j, column));
     all
 }

@@ -3,7 +3,7 @@
 //! `A - sum_k x_k y_kᵀ` as one matrix product reads and writes `A` once for all updates, where it is
 //! beyond the cache; in between a column or a row of it is corrected when it is needed.
 
-use crate::linalg::factor::subtract_outer;
+use crate::linalg::dense::subtract_outer;
 use crate::linalg::simd;
 
 /// The updates that are kept, of a matrix of `rows` rows and `columns` columns.

@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::scaled::Scaled;
 use super::tableau::{MEMORY, Tableau};
-use crate::linalg::factor::{Factor, lu_work, subtract_outer};
+use crate::linalg::dense::subtract_outer;
+use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::simd;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::norm_inf;

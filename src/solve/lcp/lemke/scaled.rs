@@ -6,7 +6,7 @@ use crate::linalg::simd;
 
 /// The entries of an LCP matrix that nobody needs to store a second time: the tableau begins as a copy
 /// of it, and reads columns again when it is refined or refactorised.
-pub trait Entries {
+pub trait Entries: Sync {
     /// Writes column `j`.
     fn write_column(&self, j: usize, column: &mut [f64]);
 }
