@@ -1,6 +1,7 @@
 //! Contact pairs from surfaces: made, told about, released.
 
 use std::ffi::CString;
+use std::mem::take;
 
 use super::args::{Arrays, c_entry, size};
 use super::guard::Failure;
@@ -232,13 +233,15 @@ impl SignoriniSurfacePairs {
         zones: JoinedZones,
     ) -> Self {
         let base = numbering.base;
-        let counted = |values: &[usize]| -> Vec<i64> {
-            values.iter().map(|value| *value as i64 + base).collect()
+        // In the memory of the given list.
+        let counted = |values: Vec<usize>| -> Vec<i64> {
+            values.into_iter().map(|value| value as i64 + base).collect()
         };
-        let arrays = found.rows_on(numbering.dofs());
-        let indices = [counted(&arrays.master_start), counted(&arrays.masters)];
+        let mut arrays = found.rows_on(numbering.dofs());
+        let indices =
+            [&mut arrays.master_start, &mut arrays.masters].map(|list| counted(take(list)));
         let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
-        let points = found.pairs.iter().flat_map(|pair| pair.point[..found.dim].to_vec());
+        let points = found.pairs.iter().flat_map(|pair| &pair.point[..found.dim]).copied();
         let folds = &found.report.folded;
         let folded: Vec<usize> = folds.iter().flat_map(|fold| [fold.node, fold.into]).collect();
         let (beyond, beyond_distances): (Vec<usize>, _) =
@@ -256,12 +259,12 @@ impl SignoriniSurfacePairs {
             ..SignoriniPairs::zeros()
         };
         SignoriniSurfacePairs {
-            slaves: counted(&slaves),
-            unpaired: counted(&found.unpaired),
-            uncovered: counted(&found.report.uncovered_faces),
-            folded: counted(&folded),
+            slaves: counted(slaves),
+            unpaired: counted(found.unpaired.clone()),
+            uncovered: counted(found.report.uncovered_faces.clone()),
+            folded: counted(folded),
             folded_distances: folds.iter().map(|fold| fold.distance).collect(),
-            beyond: counted(&beyond),
+            beyond: counted(beyond),
             beyond_distances,
             points: points.collect(),
             summary: CString::new(summary).unwrap_or_default(),

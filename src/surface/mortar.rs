@@ -63,7 +63,7 @@ pub(super) fn pairs<'a>(
     let SurfaceSettings { normals, rims, .. } = *settings;
     let shapes = TrueSides::new([slave, master], dim, &settings.shapes, watch)?;
     let mut search = Search { candidates, shapes, overlaps, polynomials };
-    let mut faces = Vec::new();
+    let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
         watch.step()?;
         let face = slave.face(at);

@@ -89,10 +89,14 @@ pub enum NodeDofs<'a> {
 impl<'a> NodeDofs<'a> {
     /// Those of a node, `dim` of them.
     pub fn of(self, node: usize, dim: usize) -> impl Iterator<Item = usize> + use<'a> {
-        (0..dim).map(move |axis| match self {
+        (0..dim).map(move |axis| self.along(axis, node, dim))
+    }
+
+    fn along(self, axis: usize, node: usize, dim: usize) -> usize {
+        match self {
             NodeDofs::PerNode(per_node) => per_node * node + axis,
             NodeDofs::Listed(dofs) => dofs[dim * node + axis],
-        })
+        }
     }
 }
 
@@ -176,18 +180,18 @@ impl PairArrays {
     fn push(
         &mut self,
         pair: &SurfacePair,
-        (nodes, dofs): (&[Weight], NodeDofs<'_>),
+        (nodes, dofs): (impl Iterator<Item = Weight>, NodeDofs<'_>),
         (gap, area): (f64, f64),
     ) {
         let dim = self.dim;
         self.count += 1;
-        for (node, _) in nodes {
-            let both = dofs.of(*node, dim).zip(dofs.of(pair.slave, dim));
-            let of_row =
-                both.zip(pair.held).map(|((own, slave), held)| if held { slave } else { own });
-            self.masters.extend(of_row);
+        for (node, weight) in nodes {
+            for axis in 0..dim {
+                let of_row = if pair.held[axis] { pair.slave } else { node };
+                self.masters.push(dofs.along(axis, of_row, dim));
+            }
+            self.weights.push(weight);
         }
-        self.weights.extend(nodes.iter().map(|(_, weight)| weight));
         self.master_start.push(self.weights.len());
         self.normals.extend(&pair.normal[..dim]);
         self.tangents.extend(&pair.tangents[0][..dim]);
@@ -207,12 +211,21 @@ impl SurfacePairs {
     /// # Panics
     /// If a list of degrees of freedom ends before the last node of a pair.
     pub fn rows_on(&self, dofs: NodeDofs<'_>) -> PairArrays {
-        let mut arrays =
-            PairArrays { dim: self.dim, master_start: vec![0], ..PairArrays::default() };
+        let (dim, count) = (self.dim, self.pairs.len());
+        let entries = self.pairs.iter().map(|pair| pair.slaves.len() + pair.masters.len()).sum();
+        let mut arrays = PairArrays {
+            dim,
+            masters: Vec::with_capacity(dim * entries),
+            weights: Vec::with_capacity(entries),
+            normals: Vec::with_capacity(dim * count),
+            tangents: Vec::with_capacity(dim * count),
+            master_start: vec![0],
+            ..PairArrays::default()
+        };
         for pair in &self.pairs {
             let masters = pair.masters.iter().map(|&(node, weight)| (node, -weight));
-            let nodes: Vec<Weight> = pair.slaves.iter().copied().chain(masters).collect();
-            arrays.push(pair, (&nodes, dofs), (pair.gap, pair.area));
+            let nodes = pair.slaves.iter().copied().chain(masters);
+            arrays.push(pair, (nodes, dofs), (pair.gap, pair.area));
         }
         arrays
     }
@@ -235,7 +248,7 @@ impl SurfacePairs {
             masters.extend(pair.masters.iter().map(|(node, weight)| (*node, weight / own)));
             arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
             let dofs = NodeDofs::PerNode(dim);
-            arrays.push(pair, (&masters, dofs), (pair.gap / own, pair.area * own));
+            arrays.push(pair, (masters.into_iter(), dofs), (pair.gap / own, pair.area * own));
         }
         Some(arrays)
     }

@@ -96,15 +96,15 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
 }
 
-/// Adds to sums of products, for each of some polynomials and the first `N` functions at a point.
+/// Adds to sums of products, for each of some polynomials and the first `N` functions at two points.
 #[inline(always)]
 fn add_products<const N: usize>(
     moments: &mut [Values],
-    polynomials: impl Iterator<Item = f64>,
-    functions: &Values,
+    polynomials: impl Iterator<Item = [f64; 2]>,
+    [first, second]: &[Values; 2],
 ) {
-    for (sums, p) in moments.iter_mut().zip(polynomials) {
-        (0..N).for_each(|k| sums[k] += p * functions[k]);
+    for (sums, [p, q]) in moments.iter_mut().zip(polynomials) {
+        (0..N).for_each(|k| sums[k] += p * first[k] + q * second[k]);
     }
 }
 
@@ -187,9 +187,14 @@ impl Polynomials {
     fn add_moments(&self, opposite: &Opposite<'_>, points: &[Meeting], covered: &mut Covered) {
         let (nodes, count) = (covered.slaves, opposite.nodes.len());
         let mut moments = [[0.0; MOST_NODES]; MOST_NODES];
-        for at in opposite.points.clone() {
-            let functions = opposite.kind.values(points[at].master);
-            let made = self.weighted[at..].iter().step_by(self.points).copied();
+        for at in opposite.points.clone().step_by(2) {
+            // A last point that is alone stands for two, one of which has no weight.
+            let (next, has_next) = match at + 1 < opposite.points.end {
+                true => (at + 1, 1.0),
+                false => (at, 0.0),
+            };
+            let functions = [at, next].map(|at| opposite.kind.values(points[at].master));
+            let made = self.weighted.chunks(self.points).map(|p| [p[at], has_next * p[next]]);
             if count <= MOST_LINEAR {
                 add_products::<MOST_LINEAR>(&mut moments, made, &functions);
             } else {
