@@ -2,6 +2,7 @@
 //! of one node of a mesh are one vertex, so that orderings and symbolic factorisations have a quarter or a
 //! ninth of the entries.
 
+use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
 use crate::shortage;
 
@@ -21,9 +22,18 @@ pub struct Graph {
 impl Graph {
     /// Makes the graph of the matrix whose lower triangle is `lower`; the first `eliminated` unknowns are eliminated and
     /// share no vertex with the others.
-    pub fn new(lower: &Csc, eliminated: usize) -> Result<Self, OutOfMemory> {
-        let unknowns = Adjacency::of_unknowns(lower)?;
+    ///
+    /// # Errors
+    /// No memory, or `progress`, who is asked between the parts of the work, ends it.
+    pub fn new(
+        lower: &Csc,
+        eliminated: usize,
+        progress: &mut FactorProgress<'_>,
+    ) -> Result<Self, Failure> {
+        let unknowns = Adjacency::of_unknowns(lower, progress)?;
+        progress(FactorStep::HasDone(0.0))?;
         let (vertex, member_start, member) = together(&unknowns, eliminated)?;
+        progress(FactorStep::HasDone(0.0))?;
         let inner = member_start.partition_point(|&start| start < eliminated);
         let count = member_start.len() - 1;
         let mut start = reserved(count + 1)?;
@@ -75,7 +85,7 @@ struct Adjacency {
 }
 
 impl Adjacency {
-    fn of_unknowns(lower: &Csc) -> Result<Self, OutOfMemory> {
+    fn of_unknowns(lower: &Csc, progress: &mut FactorProgress<'_>) -> Result<Self, Failure> {
         let size = lower.ncols();
         let below = |j: usize| column(lower, j).0.iter().copied().filter(move |&i| i != j);
         let mut start = filled(size + 1, 0)?;
@@ -86,6 +96,7 @@ impl Adjacency {
             }
         }
         (0..size).for_each(|i| start[i + 1] += start[i]);
+        progress(FactorStep::HasDone(0.0))?;
         let mut neighbour = filled(start[size], 0)?;
         let mut next = start.clone();
         let mut put = |of: usize, i: usize| {
@@ -96,6 +107,7 @@ impl Adjacency {
         for j in 0..size {
             below(j).for_each(|i| put(i, j));
         }
+        progress(FactorStep::HasDone(0.0))?;
         for j in 0..size {
             below(j).for_each(|i| put(j, i));
         }

@@ -224,7 +224,7 @@ mod tests {
     fn unknowns_of_a_node_are_one_vertex() {
         for dofs in [1, 2, 3] {
             let (matrix, eliminated) = cube(4, dofs);
-            let graph = Graph::new(&matrix, eliminated).unwrap();
+            let graph = Graph::new(&matrix, eliminated, &mut |_| Ok(())).unwrap();
             assert_eq!((graph.vertices(), graph.inner), (64, 48));
             assert!((0..64).all(|v| graph.members(v).len() == dofs));
         }
@@ -235,7 +235,7 @@ mod tests {
     fn chosen_order_is_complete_and_the_cheaper_one() {
         for edge in [2, 5, 14] {
             let (matrix, eliminated) = cube(edge, 3);
-            let graph = Graph::new(&matrix, eliminated).unwrap();
+            let graph = Graph::new(&matrix, eliminated, &mut |_| Ok(())).unwrap();
             let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
             let order = chosen(&graph, None, &mut |_| Ok(())).unwrap();
             assert!(is_permutation(&order, graph.inner));

@@ -49,7 +49,7 @@ impl Structure {
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         progress(FactorStep::HasDone(0.0))?;
-        let graph = Graph::new(lower, eliminated)?;
+        let graph = Graph::new(lower, eliminated, progress)?;
         progress(FactorStep::HasDone(0.0))?;
         let order = chosen(&graph, given, progress)?;
         progress(FactorStep::HasDone(0.0))?;
