@@ -37,6 +37,8 @@ pub struct Certificate {
     pub force: Vec<f64>,
     /// State of each pair.
     pub states: Vec<State>,
+    /// The contact forces that equilibrium needs, before they are projected.
+    pub(crate) raw: Vec<f64>,
 }
 
 impl Certificate {
@@ -185,6 +187,7 @@ pub(super) fn measure_pair<R: Relation>(
         equilibrium,
         force: admissible,
         states,
+        raw,
     }
 }
 

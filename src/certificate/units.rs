@@ -20,6 +20,7 @@ impl Certificate {
             equilibrium: units.host_force(self.equilibrium) + rounded,
             force,
             states: self.states.clone(),
+            raw: self.raw.iter().map(|&force| units.host_force(force)).collect(),
             ..*self
         }
     }

@@ -12,6 +12,9 @@
 //! Forces are compared with displacements by one unit of force per length for the normal of a pair, `1 / W_nn`,
 //! and one for its tangents, one over the largest eigenvalue of its tangential block.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use super::arguments::{OF_MATRIX, checked_dim, dense, unknowns, vector};
 use super::contact::ContactProblem;
 use super::flexibility_form::FlexibilityForm;
@@ -53,9 +56,9 @@ pub struct Flexibility<'a> {
     form: FlexibilityForm<'a>,
     free: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
-    units: Vec<f64>,
+    units: Cow<'a, [f64]>,
     /// Forces of the size that would undo the free displacements, pair by pair.
-    load: Vec<f64>,
+    load: Cow<'a, [f64]>,
 }
 
 /// A contact problem in flexibility form.
@@ -123,7 +126,17 @@ impl<'a> Flexibility<'a> {
     /// of the components of the matrix, or of a larger one that this is a part of.
     pub(crate) fn new(form: FlexibilityForm<'a>, free: &'a [f64], units: Vec<f64>) -> Self {
         let load = units.iter().zip(free).map(|(unit, free)| unit * free).collect();
-        Flexibility { form, free, units, load }
+        Flexibility { form, free, units: Cow::Owned(units), load: Cow::Owned(load) }
+    }
+
+    /// The relation of the components `part` of one whose components have this one's in another order, with their `W`.
+    pub(crate) fn on_part(&'a self, matrix: Matrix<'a>, part: Range<usize>) -> Self {
+        Flexibility {
+            form: FlexibilityForm::Dense(matrix),
+            free: &self.free[part.clone()],
+            units: Cow::Borrowed(&self.units[part.clone()]),
+            load: Cow::Borrowed(&self.load[part]),
+        }
     }
 
     /// `W`.
@@ -171,18 +184,18 @@ impl Relation for Flexibility<'_> {
             d.iter().zip(self.free).map(|(d, free)| two_sum(*d, -free)).unzip();
         let beyond = self.form.times_less(force, &caused);
         let of = |((beyond, lost), unit): ((f64, f64), &f64)| unit * (lost - beyond);
-        beyond.into_iter().zip(lost).zip(&self.units).map(of).collect()
+        beyond.into_iter().zip(lost).zip(self.units()).map(of).collect()
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
-        size.iter().zip(&self.units).map(|(size, unit)| unit * size).collect()
+        size.iter().zip(self.units()).map(|(size, unit)| unit * size).collect()
     }
 
     /// Forces that move nothing may be of any size, and would hide what is left of all others. So at most
     /// the units times `W F`.
     fn size_of_force(&self, force: &[f64]) -> f64 {
         let caused = self.form.times(force);
-        let felt: Vec<f64> = caused.iter().zip(&self.units).map(|(d, unit)| unit * d).collect();
+        let felt: Vec<f64> = caused.iter().zip(self.units()).map(|(d, unit)| unit * d).collect();
         norm(force).min(norm(&felt))
     }
 }
@@ -195,7 +208,7 @@ impl Redundant for Flexibility<'_> {
     /// `W F = 0`.
     fn balance_each_other(&self, force: &[f64], within: f64) -> bool {
         let scaled = |values: Vec<f64>| {
-            largest_of(values.iter().zip(&self.units).map(|(value, unit)| (unit * value).abs()))
+            largest_of(values.iter().zip(self.units()).map(|(value, unit)| (unit * value).abs()))
         };
         let terms = scaled(self.matrix().magnitude(&sizes(force)));
         scaled(self.form.times(force)) <= within.max(ROUNDING_OF_SUM) * terms

@@ -60,23 +60,28 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
     let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
     let start = call.start.map(opposite);
     let measured = Cell::new(None);
-    let is_accurate = |x: &[f64]| {
+    let measure = |x: &[f64]| {
         let candidate = Candidate::new(opposite(x), Vec::new(), Ending::Done, Effort::default());
-        let holds = candidate.certificate(contact).holds(settings.tolerance);
-        measured.set(Some(candidate));
-        holds
+        let certificate = candidate.certificate(contact);
+        let holds = certificate.holds(settings.tolerance);
+        let force = certificate.raw.clone();
+        let loads = lcp.q.iter().zip(problem.load());
+        let w = force.iter().zip(loads).map(|(force, (q, load))| (q - load) - force).collect();
+        measured.set(Some(candidate.with_force(force)));
+        (holds, w)
     };
-    let pivoted = solve(&lcp, settings.tolerance, start, most, &is_accurate, monitor);
+    let pivoted = solve(&lcp, settings.tolerance, start, most, &measure, monitor);
     let effort = Effort::of_systems(pivoted.factorisations);
     let d = opposite(&pivoted.x);
     // The basis that was measured last is nearly always the one on which block pivoting ends.
-    let mut force = opposite(&pivoted.w);
-    contact.add_tension(&mut force);
-    let candidate = match measured.take().filter(|candidate: &Candidate| candidate.d() == d) {
+    let mut candidate = match measured.take().filter(|candidate: &Candidate| candidate.d() == d) {
         Some(candidate) => candidate.ended(pivoted.ending).with_effort(effort),
-        None => Candidate::new(d, Vec::new(), pivoted.ending, effort),
+        None => {
+            let mut force = opposite(&pivoted.w);
+            contact.add_tension(&mut force);
+            Candidate::new(d, force, pivoted.ending, effort)
+        }
     };
-    let mut candidate = candidate.with_force(force);
     (candidate.orientation, candidate.definite) = (pivoted.orientation, pivoted.definite);
     candidate
 }
@@ -98,22 +103,29 @@ pub fn lcp(
         symmetric: is_symmetric(&lcp.matrix()),
         remembered: None,
     };
-    let is_accurate = |x: &[f64]| lcp.measure(x, magnitudes).0 <= tolerance;
-    solve(&bounded, tolerance, None, most, &is_accurate, monitor)
+    let measure = |x: &[f64]| {
+        let (eta, product) = lcp.measure(x, magnitudes);
+        (eta <= tolerance, lcp.q().iter().zip(product).map(|(q, mx)| q + mx).collect())
+    };
+    solve(&bounded, tolerance, None, most, &measure, monitor)
 }
+
+/// Tells if variables are accurate enough, and their `w`.
+type Measure<'m> = dyn Fn(&[f64]) -> (bool, Vec<f64>) + 'm;
 
 fn solve(
     lcp: &BoundedLcp<'_>,
     tolerance: f64,
     start: Option<Vec<f64>>,
     most: u64,
-    is_accurate: &dyn Fn(&[f64]) -> bool,
+    measure: &Measure<'_>,
     monitor: &mut Monitor<'_>,
 ) -> Pivoted {
     let equations = Equations::of_lcp(lcp);
     let mut systems = Systems::of(&equations);
     let (mut basic, x, w) = begin(lcp, systems.before(start.as_deref()), start);
-    let mut iterate = Iterate { lcp, systems, w, x };
+    let units = lcp.matrix.units(1);
+    let mut iterate = Iterate { lcp, units, systems, w, x };
     let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
@@ -134,12 +146,12 @@ fn solve(
         }
         let next = active_set(lcp, &iterate.x, &iterate.w);
         if next == basic {
-            let refined = iterate.refine(&basic, is_accurate, monitor);
+            let refined = iterate.refine(&basic, measure, monitor);
             best = (0.0, std::mem::take(&mut iterate.x), std::mem::take(&mut iterate.w));
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
         let progress = exchange.choose(&iterate, &mut basic, next);
-        if !progress && best.0 <= tolerance && is_accurate(&best.1) {
+        if !progress && best.0 <= tolerance && measure(&best.1).0 {
             // At a degenerate solution rounding may flip the active set forever.
             break Ending::Done;
         }
@@ -180,6 +192,7 @@ fn begin(
 /// An iterate with its `w`.
 struct Iterate<'l> {
     lcp: &'l BoundedLcp<'l>,
+    units: Vec<f64>,
     systems: Systems<'l>,
     x: Vec<f64>,
     w: Vec<f64>,
@@ -189,9 +202,8 @@ impl Iterate<'_> {
     /// Goes to the solution in which the basic variables have no `w`, and the others are at their bounds.
     fn solve(&mut self, basic: &[bool], monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         let lcp = self.lcp;
-        let units = lcp.matrix.units(1);
         let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
-        let pairs: Vec<Linearised> = basic.iter().zip(&units).map(pair).collect();
+        let pairs: Vec<Linearised> = basic.iter().zip(&self.units).map(pair).collect();
         monitor.affords(self.systems.work(&pairs))?;
         let mut step = vec![0.0; self.x.len()];
         for i in (0..step.len()).filter(|&i| !basic[i]) {
@@ -203,25 +215,33 @@ impl Iterate<'_> {
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
         let moved = self.systems.step(&lack.collect::<Vec<f64>>()).ok_or(Ending::Singular)?;
         for (i, step) in step.iter_mut().enumerate() {
-            *step = if basic[i] { moved[i][0] / units[i] } else { 0.0 };
+            *step = if basic[i] { moved[i][0] / self.units[i] } else { 0.0 };
             self.x[i] += *step;
         }
-        lcp.matrix.add_product(&step, &mut self.w);
+        if lcp.remembered.is_none() {
+            lcp.matrix.add_product(&step, &mut self.w);
+            return Ok(());
+        }
+        // Of a step after others the solution tells `w` too, and the certificate tells it again.
+        for ((w, moved), &basic) in self.w.iter_mut().zip(&moved).zip(basic) {
+            *w = if basic { 0.0 } else { *w - moved[0] };
+        }
         Ok(())
     }
 
-    /// Brings the solution of the last system to the accuracy that `is_accurate` asks for, if rounding has left less.
+    /// Brings the solution of the last system to the accuracy that `measure` asks for, if rounding has left less.
     /// `Err`: there is no time for more of it.
     fn refine(
         &mut self,
         basic: &[bool],
-        is_accurate: &dyn Fn(&[f64]) -> bool,
+        measure: &Measure<'_>,
         monitor: &mut Monitor<'_>,
     ) -> Result<(), Stop> {
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
-            self.w = self.lcp.w(&self.x);
-            if is_accurate(&self.x) {
+            let is_accurate;
+            (is_accurate, self.w) = measure(&self.x);
+            if is_accurate {
                 break;
             }
             let eta = self.lcp.eta(&self.x, &self.w);

@@ -9,49 +9,18 @@
 use std::sync::Arc;
 
 use super::iteration::{self, Ended};
-use crate::law::Vector;
 use crate::linalg::elimination::Elimination;
 use crate::monitor::Monitor;
 use crate::problem::Remembered;
 use crate::solve::part::ReducedProblem;
-use crate::solve::pieces::{Equations, Point};
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::pieces::Equations;
+use crate::solve::result::Ending;
 
 /// What a problem leaves of the elimination of open pairs, for the next one with its matrix.
 pub struct Kept {
     pub elimination: Arc<Elimination>,
     /// What the problem on the candidates has left for itself.
     pub of_candidates: Remembered,
-}
-
-/// Where a search has ended.
-pub struct Found {
-    /// Displacements, the force that they need, and their coordinates.
-    pub d: Vec<f64>,
-    pub force: Vec<f64>,
-    pub y: Vec<Vector>,
-    /// How it ended; its systems, and the orientation of the last one.
-    pub ending: Ending,
-    pub systems: u64,
-    pub orientation: i8,
-}
-
-impl From<Ended> for Found {
-    fn from(ended: Ended) -> Self {
-        let Ended { point, ending, systems, orientation } = ended;
-        let Point { y, d, force, .. } = point;
-        Found { d, force, y, ending, systems, orientation }
-    }
-}
-
-impl Found {
-    /// The candidate of the whole problem.
-    pub fn into_candidate(self) -> Candidate {
-        let effort = Effort::of_systems(self.systems);
-        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
-        candidate.orientation = self.orientation;
-        candidate
-    }
 }
 
 /// The problem reduced by an elimination of the problem before, if all that are eliminated are free when they are open.
@@ -71,10 +40,10 @@ pub fn again(
     start: &[f64],
     tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Option<Found> {
+) -> Option<Ended> {
     let remembered = whole.remembered?;
     if !remembered.is::<Kept>() {
-        return iteration::solve_again(whole, start, tolerance, monitor).map(Found::from);
+        return iteration::solve_again(whole, start, tolerance, monitor);
     }
     let Kept { elimination, of_candidates } = remembered.take()?;
     let reduced = reduced(whole, &elimination)?;
@@ -87,7 +56,7 @@ pub fn again(
             && reduced.closing(&y).is_empty()
             && whole.eta(&d, &force) <= tolerance;
         let ending = if is_solved { Ending::Done } else { iteration::FAR };
-        Found { d, force, y, ending, ..found }
+        Ended { d, force, y, ending, ..found }
     });
     drop(reduced);
     remembered.leave(Kept { elimination, of_candidates });

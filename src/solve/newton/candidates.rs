@@ -4,7 +4,9 @@
 //! and `C` the candidates, `K_OO d_O + K_OC d_C = f_O` holds as long as `O` stays open, so that the
 //! contact problem on `C` alone has the matrix `S = K_CC - K_CO K_OO⁻¹ K_OC`. It is solved with all
 //! states allowed. If a pair of `O` then penetrates, it joins `C`, and the problem is solved again: this
-//! ends, as each pass adds pairs. The result is measured on the whole problem.
+//! ends, as each pass adds pairs. Where the search opens many of `C`, as on beams, which sweeps hardly move, the next
+//! candidates are those of the point that it has reached; that happens a few times at most. The result is measured on the
+//! whole problem.
 //!
 //! *Series.* The eliminated pairs depend on the matrix and on which pairs are open, not on the loads. Where the pairs
 //! that an earlier problem with the same matrix has eliminated are open in this one too, the contact problem on its
@@ -15,13 +17,13 @@
 
 use std::sync::Arc;
 
-use super::before::{Found, Kept, reduced};
-use super::iteration::Ended;
+use super::before::{Kept, reduced};
+use super::iteration::{Ended, OPEN};
 use super::start::swept;
 use crate::law::Vector;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::Remembered;
-use crate::solve::part::{ReducedProblem, closed_with_margin};
+use crate::solve::part::{ReducedProblem, closed_with_margin, many_are_open};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Call, Candidate, Ending};
 
@@ -57,7 +59,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
             return Candidate::without_displacements(contact, OVERFLOW);
         }
         let alone = search.on(&whole, None, y, monitor);
-        found = Some(Found { systems: spent + alone.systems, ..alone });
+        found = Some(Ended { systems: spent + alone.systems, ..alone });
     }
     found.expect("the problem alone has ended").into_candidate()
 }
@@ -99,7 +101,7 @@ impl Search<'_, '_> {
         mut reduced: Option<ReducedProblem<'w>>,
         mut y: Vec<Vector>,
         monitor: &mut Monitor<'_>,
-    ) -> Found {
+    ) -> Ended {
         let mut kept = Vec::new();
         let (mut systems, mut orientation) = (0, 0);
         loop {
@@ -110,12 +112,17 @@ impl Search<'_, '_> {
             let part = match on_part {
                 Ok(Some(part)) => part,
                 Ok(None) => {
-                    let found = Found::from((self.core)(whole, y, monitor));
-                    return Found { systems: systems + found.systems, ..found };
+                    let found = (self.core)(whole, y, monitor);
+                    systems += found.systems;
+                    if found.ending != OPEN {
+                        return Ended { systems, ..found };
+                    }
+                    (kept, y) = (Vec::new(), found.y);
+                    continue;
                 }
                 Err(stop) => {
-                    let (point, ending) = (Point::new(whole, y), Ending::Stopped(stop));
-                    return Ended { point, ending, systems, orientation }.into();
+                    let at = Ended::at(Point::new(whole, y), Ending::Stopped(stop));
+                    return Ended { systems, orientation, ..at };
                 }
             };
             kept = part.kept().collect();
@@ -141,24 +148,25 @@ impl Search<'_, '_> {
                     let elimination = Arc::clone(part.elimination());
                     remembered.leave(Kept { elimination, of_candidates });
                 }
-                return Found { d, force, y, ending, systems, orientation };
+                return Ended { d, force, y, ending, systems, orientation };
             }
         }
     }
 
-    /// Solves the equations of candidates: those of a series are too many for one problem, which has its own among them.
+    /// Solves the equations of candidates. Those of a series may be too many for one problem, and so may those that sweeps
+    /// leave closed in the plane.
     fn on_part(
         &mut self,
         equations: &Equations<'_>,
         y: Vec<Vector>,
         monitor: &mut Monitor<'_>,
-    ) -> Found {
-        if !self.is_series {
-            return (self.core)(equations, y, monitor).into();
+    ) -> Ended {
+        let is_series = std::mem::take(&mut self.is_series);
+        if equations.dim > 2 && !is_series {
+            return (self.core)(equations, y, monitor);
         }
-        self.is_series = false;
         let found = self.on(equations, None, y, monitor);
-        self.is_series = true;
+        self.is_series = is_series;
         found
     }
 
@@ -171,6 +179,11 @@ impl Search<'_, '_> {
         y: &[Vector],
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<ReducedProblem<'w>>, Stop> {
+        // In the plane one factor serves many systems: less is saved.
+        let closed = || whole.pieces(y).iter().filter(|piece| piece.closed).count();
+        if whole.dim == 2 && !many_are_open(closed(), y.len()) {
+            return Ok(None);
+        }
         let needed = closed_with_margin(&whole.laws, y);
         kept.extend(&needed);
         kept.sort_unstable();

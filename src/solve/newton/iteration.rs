@@ -10,6 +10,7 @@ use super::descent::{self, Goal, NormalMap, PATIENCE};
 use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
+use crate::solve::part::many_are_open;
 use crate::solve::pieces::{Equations, Point, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_pairs;
@@ -36,10 +37,15 @@ const RESWEEPS: usize = 20;
 /// Where steps with an earlier system come no nearer.
 pub const FAR: Ending = Ending::Stalled("the solution is far from the one before");
 
+/// Where so many pairs are open that they are eliminated first.
+pub const OPEN: Ending = Ending::Stalled("many pairs are open");
+
 /// How Newton's method ended, and where.
 pub struct Ended {
-    /// The best point.
-    pub point: Point,
+    /// Displacements, the force that they need, and their coordinates, of the best point.
+    pub d: Vec<f64>,
+    pub force: Vec<f64>,
+    pub y: Vec<Vector>,
     /// `Done` if `eta` is below the tolerance or at its rounding.
     pub ending: Ending,
     /// Linear systems that were factorised.
@@ -49,25 +55,32 @@ pub struct Ended {
 }
 
 impl Ended {
+    /// An end at a point, without a system.
+    pub fn at(point: Point, ending: Ending) -> Self {
+        let Point { y, d, force, .. } = point;
+        Ended { d, force, y, ending, systems: 0, orientation: 0 }
+    }
+
     /// The candidate of equations that are a whole problem's.
     pub fn into_candidate(self) -> Candidate {
         let effort = Effort::of_systems(self.systems);
-        let mut candidate = Candidate::new(self.point.d, self.point.force, self.ending, effort);
+        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
         candidate.orientation = self.orientation;
         candidate
     }
 }
 
-/// Solves the equations from the coordinates `y`.
+/// Solves the equations from the coordinates `y`; until most pairs are open if it `leaves_open` pairs to an elimination.
 pub fn solve(
     equations: &Equations<'_>,
     y: Vec<Vector>,
-    tolerance: f64,
+    (tolerance, leaves_open): (f64, bool),
     monitor: &mut Monitor<'_>,
 ) -> Ended {
     let least_systems = 1;
     let point = Point::new(equations, y);
-    Dense::of(equations).descend(point, (tolerance, least_systems), monitor)
+    let dense = Dense { leaves_open, ..Dense::of(equations) };
+    dense.descend(point, (tolerance, least_systems), monitor)
 }
 
 /// Solves the equations of a whole problem in the plane from displacements: from the solution on the pieces of the problem
@@ -109,7 +122,7 @@ pub fn solve_again(
     match (point.merit < merit, point.pieces == dense.pieces) {
         (true, true) => {}
         _ if dense.eta(&point) <= enough => {}
-        (true, false) => return Some(Ended { point, ending: FAR, systems: 0, orientation: 0 }),
+        (true, false) => return Some(Ended::at(point, FAR)),
         (false, _) => return None,
     }
     Some(dense.descend(point, (tolerance, 0), monitor))
@@ -143,6 +156,9 @@ struct Dense<'e> {
     is_exact: bool,
     /// The pieces to which the sweeps after cut steps have led; the last of them may be there twice.
     swept_to: Vec<Vec<Piece>>,
+    /// True if the search ends with [`OPEN`], and the point where it has.
+    leaves_open: bool,
+    left: Option<Point>,
 }
 
 impl<'e> Dense<'e> {
@@ -157,6 +173,8 @@ impl<'e> Dense<'e> {
             orientation: 0,
             is_exact: false,
             swept_to,
+            leaves_open: false,
+            left: None,
         }
     }
 
@@ -190,9 +208,9 @@ impl<'e> Dense<'e> {
             outcome = descent::solve(&mut self, outcome.point, goal, monitor);
         }
         let (systems, orientation) = (self.systems.factorisations, self.orientation);
-        let Dense { systems: left, equations, .. } = self;
-        left.leave(|| outcome.point.clone().into_before(equations));
-        Ended { point: outcome.point, ending: outcome.ending, systems, orientation }
+        let point = self.left.unwrap_or(outcome.point);
+        self.systems.leave(|| point.clone().into_before(self.equations));
+        Ended { systems, orientation, ..Ended::at(point, outcome.ending) }
     }
 
     /// The step from the pieces of a point.
@@ -265,6 +283,11 @@ impl NormalMap for Dense<'_> {
             && others.contains(last)
         {
             return Err(Ending::Cycle);
+        }
+        let closed = || point.pieces.iter().filter(|piece| piece.closed).count();
+        if self.leaves_open && many_are_open(closed(), point.y.len()) {
+            self.left = Some(point.clone());
+            return Err(OPEN);
         }
         self.system(point, monitor)
     }

@@ -1,9 +1,9 @@
 //! Newton's method on the normal map (`law::normal_map`): one equation for open, stick and slip, in the
 //! plane and in space, with the exact friction disc.
 //!
-//! Some sweeps (`start`), then Newton's method with a line search (`iteration`). In the plane one factor serves many systems;
-//! in space the pairs that are surely open are eliminated first, and problems that share a matrix share what is eliminated
-//! (`candidates`), and the factor of the solution before (`before`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
+//! Some sweeps (`start`), then Newton's method with a line search (`iteration`). The pairs that are surely open are eliminated
+//! first (`candidates`). In the plane one factor serves many systems; in space problems that share a matrix share what is
+//! eliminated, and the factor of the solution before (`before`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
 //! they are as stiff (`levelled`).
 
 mod before;
@@ -16,6 +16,7 @@ mod start;
 mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
+use descent::PATIENCE;
 pub use descent::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, solve as descend};
 pub use iteration::{Ended, solve as newton_from};
 pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
@@ -29,25 +30,31 @@ use crate::solve::result::{Call, Candidate, Ending};
 /// Solves a problem by Newton's method.
 pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    if contact.dim() == 2 {
-        let equations = Equations::of(contact);
-        let ended = iteration::solve_in_plane(&equations, call.start, settings.tolerance, monitor);
+    let whole = Equations::of(contact);
+    let in_space = contact.dim() > 2;
+    if !in_space && whole.remembered.is_some() {
+        let ended = iteration::solve_in_plane(&whole, call.start, settings.tolerance, monitor);
         return match ended {
             Some(ended) => ended.into_candidate(),
             None => Candidate::without_displacements(contact, candidates::OVERFLOW),
         };
     }
-    let core: &mut candidates::Core<'_> =
-        &mut |equations, y, monitor| iteration::solve(equations, y, settings.tolerance, monitor);
-    let whole = Equations::of(contact);
+    let (tolerance, mut left) = (settings.tolerance, PATIENCE);
+    let core: &mut candidates::Core<'_> = &mut |equations, y, monitor| {
+        let leaves_open = !in_space && left > 0;
+        let ended = iteration::solve(equations, y, (tolerance, leaves_open), monitor);
+        left -= usize::from(ended.ending == iteration::OPEN);
+        ended
+    };
     let start = call.start.filter(|_| whole.remembered.is_some());
-    let again = start.and_then(|start| before::again(&whole, start, settings.tolerance, monitor));
+    let again = start.and_then(|start| before::again(&whole, start, tolerance, monitor));
     let near = match again {
         Some(found) if found.ending == Ending::Done => return found.into_candidate(),
         again => again.map(|found| found.d),
     };
     let call = &near.as_deref().map_or(*call, |d| call.from(d));
-    match levelled::solve(call, monitor, core) {
+    let levelled = if in_space { levelled::solve(call, monitor, core) } else { None };
+    match levelled {
         None => on_candidates(call, monitor, core),
         Some(levelled) => {
             let mut candidate = on_candidates(&call.from(&levelled.d), monitor, core);

@@ -9,4 +9,4 @@ mod touching;
 pub use normal_problem::{INDEFINITE, NormalProblem, driven_motion};
 pub use pair_data::PairData;
 pub use reduced_problem::ReducedProblem;
-pub use touching::closed_with_margin;
+pub use touching::{closed_with_margin, many_are_open};

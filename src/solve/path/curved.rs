@@ -41,7 +41,7 @@ pub fn ends(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Vec<Candidate> {
             break;
         }
         let start = perturbed(&equations, &none, 1.0, seed);
-        let newton = newton_from(&equations, start.clone(), tolerance, monitor);
+        let newton = newton_from(&equations, start.clone(), (tolerance, false), monitor);
         let path = follow(&equations, start, DEVIATIONS[1], tolerance, monitor);
         ends.extend([newton, path].into_iter().filter(|end| end.ending == Ending::Done));
     }
@@ -70,7 +70,8 @@ fn from(
             _ => ended.orientation >= 0 && is_solution(call, equations, &ended, monitor),
         };
         count("path in space", attempt, settled);
-        if settled || best.as_ref().is_none_or(|best| ended.point.merit < best.point.merit) {
+        let eta = |ended: &Ended| equations.eta(&ended.d, &ended.force);
+        if settled || best.as_ref().is_none_or(|best| eta(&ended) < eta(best)) {
             best = Some(ended);
         }
         if settled {
@@ -91,7 +92,7 @@ fn is_solution(
     monitor: &mut Monitor<'_>,
 ) -> bool {
     let (contact, settings) = (call.contact, call.settings);
-    let (d, force) = (&ended.point.d, &ended.point.force);
+    let (d, force) = (&ended.d, &ended.force);
     if ended.ending == Ending::Done || equations.eta(d, force) <= settings.tolerance {
         return true;
     }
@@ -115,11 +116,8 @@ fn follow(
     let homotopy = Homotopy::new(equations, &start);
     let mut curve = Curve::new(&homotopy, start, deviation);
     let mut ended = match curve.follow(monitor) {
-        Ok(()) => newton_from(equations, curve.place().y.clone(), tolerance, monitor),
-        Err(ending) => {
-            let point = Point::new(equations, curve.place().y.clone());
-            Ended { point, ending, systems: 0, orientation: 0 }
-        }
+        Ok(()) => newton_from(equations, curve.place().y.clone(), (tolerance, false), monitor),
+        Err(ending) => Ended::at(Point::new(equations, curve.place().y.clone()), ending),
     };
     ended.systems += curve.systems;
     ended

@@ -5,6 +5,8 @@
 //! island. So islands with `eta <= t` make a whole with `eta <= t √2`. Islands that Newton's method has solved have no
 //! certificate of their own: that of the whole is enough, and where it does not hold they are solved again with one.
 
+use std::ops::Range;
+
 use super::flexibility::{self, on_itself};
 use super::growth::named;
 use super::on_flexibility::NewtonForces;
@@ -58,9 +60,17 @@ fn in_turn(
     // The smallest first: what ends the call, most likely the largest, leaves the fewest.
     let mut in_turn: Vec<&[usize]> = islands.each().collect();
     in_turn.sort_by_key(|pairs| pairs.len());
+    // Data of all in that order: those of an island are a part.
+    let order: Vec<usize> = in_turn.iter().copied().flatten().copied().collect();
+    let (free, units) = (problem.relation().free(), problem.relation().units());
+    let (free, units) = (gathered(free, &order, dim), gathered(units, &order, dim));
+    let ordered = Flexibility::new(FlexibilityForm::Dense(Matrix::new(0, &[], 1)), &free, units);
+    let data = PairData::of(problem, &order);
+    let mut first = 0;
     for pairs in in_turn {
-        let island = Island::new(problem, matrix, pairs);
-        let island = island.problem(problem)?;
+        let (part, entries) = (first..first + pairs.len(), matrix.part(pairs));
+        first = part.end;
+        let island = island((problem, &ordered), (&data, part), &entries)?;
         let begin = gathered(&found.force, pairs, dim);
         if !certified
             && let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
@@ -90,42 +100,19 @@ pub fn largest_island(form: &FlexibilityForm<'_>) -> Option<String> {
     Some(format!("the largest island has {} pairs: {}", pairs.len(), named(pairs)))
 }
 
-/// The data of an island.
-struct Island {
-    matrix: Vec<f64>,
-    units: Vec<f64>,
-    free: Vec<f64>,
-    own: PairData,
-}
-
-impl Island {
-    fn new(problem: &FlexibilityProblem<'_>, matrix: &SparseW, pairs: &[usize]) -> Self {
-        let (relation, dim) = (problem.relation(), problem.dim());
-        Island {
-            matrix: matrix.part(pairs),
-            units: gathered(relation.units(), pairs, dim),
-            free: gathered(relation.free(), pairs, dim),
-            own: PairData::of(problem, pairs),
-        }
-    }
-
-    /// The island of the `whole` as a problem of its own.
-    fn problem<'s>(
-        &'s self,
-        whole: &FlexibilityProblem<'s>,
-    ) -> Result<FlexibilityProblem<'s>, Error> {
-        let n = self.free.len();
-        let form = FlexibilityForm::Dense(Matrix::new(n, &self.matrix, n.max(1)));
-        let relation = Flexibility::new(form, &self.free, self.units.clone());
-        let law = whole.law().with_values(&self.own.parameters);
-        ContactProblem::with_relation(
-            relation,
-            whole.dim(),
-            &self.own.gap,
-            law,
-            Some(&self.own.slip),
-        )
-    }
+/// The pairs `part` of the `ordered` ones as a problem of their own, with their `W`.
+fn island<'s>(
+    (whole, ordered): (&FlexibilityProblem<'s>, &'s Flexibility<'s>),
+    (own, part): (&'s PairData, Range<usize>),
+    matrix: &'s [f64],
+) -> Result<FlexibilityProblem<'s>, Error> {
+    let (dim, law) = (whole.dim(), whole.law());
+    let of = |each: usize| each * part.start..each * part.end;
+    let n = of(dim).len();
+    let relation = ordered.on_part(Matrix::new(n, matrix, n.max(1)), of(dim));
+    let law = law.with_values(&own.parameters[of(law.parameters())]);
+    let (gap, slip) = (&own.gap[part.clone()], &own.slip[of(dim - 1)]);
+    ContactProblem::with_relation(relation, dim, gap, law, Some(slip))
 }
 
 /// The entries of `values`, `each` for every pair, that belong to `pairs`.
