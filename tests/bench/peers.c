@@ -4,11 +4,12 @@
  *     peers LEAST MOST SECONDS FAMILY [OUT]
  *
  * LEAST and MOST are the smallest and largest number of pairs, SECONDS the CPU time that a call may
- * take, FAMILY one of frictionless, friction2d, friction3d, or all. The document goes to standard
+ * take, FAMILY one of frictionless, friction2d, friction3d, held, or all. The document goes to standard
  * output and OUT/peers.md, every row to OUT/peers.csv.
  */
 
 #include "peers_block.h"
+#include "peers_held.h"
 #include "peers_table.h"
 
 #include <limits.h>
@@ -175,6 +176,32 @@ static void all_in_space(size_t side, double limit, struct outcome *outcome,
     }
 }
 
+/* The families that no solver was tuned for, of about so many pairs. */
+static void held_out(size_t dim, size_t pairs, double limit, struct outcome *outcome,
+                     struct results *results)
+{
+    for (size_t k = 0; k < held_count; k++) {
+        struct problem problem = {.family = dim == 2 ? FRICTION_2D : FRICTION_3D,
+            .geometry = (enum geometry)(HELD_OUT + k), .mu = 0.3};
+        struct contact *contact = &problem.contact;
+        if (held_dim(k) != dim)
+            continue;
+        const char *wrong = held_new(k, pairs, problem.mu, contact);
+        if (wrong != NULL)
+            stop(wrong);
+        if (friction_form(contact, &problem.flexibility) != 0)
+            stop("the condensed stiffness is not positive definite");
+        problem.lu_ms = factorisation_ms(contact);
+        problem.mu_of = need(contact->pairs, sizeof *problem.mu_of);
+        for (size_t i = 0; i < contact->pairs; i++)
+            problem.mu_of[i] = problem.mu;
+        run_all(&problem, fmin(limit, fmax(0.2, 0.1 * problem.lu_ms)), outcome, results);
+        free(problem.mu_of);
+        lcp_free(&problem.flexibility);
+        contact_free(contact);
+    }
+}
+
 static FILE *open_in(const char *directory, const char *name)
 {
     char path[4096];
@@ -201,11 +228,10 @@ struct wanted {
     const char *family;
 };
 
-static int is_wanted(const struct wanted *wanted, enum family family, size_t pairs)
+static int is_wanted(const struct wanted *wanted, const char *name, size_t pairs)
 {
     return pairs >= wanted->least && pairs <= wanted->most &&
-           (strcmp(wanted->family, "all") == 0 ||
-            strcmp(wanted->family, family_name(family)) == 0);
+           (strcmp(wanted->family, "all") == 0 || strcmp(wanted->family, name) == 0);
 }
 
 /* The command line without OUT. */
@@ -213,11 +239,11 @@ static struct wanted wanted_of(char **argv)
 {
     const struct wanted wanted = {(size_t)strtoul(argv[1], NULL, 10),
         (size_t)strtoul(argv[2], NULL, 10), argv[4]};
-    int known = strcmp(wanted.family, "all") == 0;
+    int known = strcmp(wanted.family, "all") == 0 || strcmp(wanted.family, "held") == 0;
     for (int family = FRICTIONLESS; family <= FRICTION_3D; family++)
         known |= strcmp(wanted.family, family_name((enum family)family)) == 0;
     if (!known)
-        stop("FAMILY is frictionless, friction2d, friction3d or all");
+        stop("FAMILY is frictionless, friction2d, friction3d, held or all");
     return wanted;
 }
 
@@ -243,20 +269,29 @@ int main(int argc, char **argv)
 
     for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++)
         for (int geometry = BAR; geometry <= TWO_BLOCKS; geometry++) {
-            if (is_wanted(&wanted, FRICTIONLESS, sizes[s]))
+            if (is_wanted(&wanted, family_name(FRICTIONLESS), sizes[s]))
                 frictionless((enum geometry)geometry, sizes[s], limit, outcome, &results);
-            if (is_wanted(&wanted, FRICTION_2D, sizes[s]) && sizes[s] <= 1025)
+            if (is_wanted(&wanted, family_name(FRICTION_2D), sizes[s]) && sizes[s] <= 1025)
                 friction((enum geometry)geometry, sizes[s], limit, outcome, &results);
             if (argc > 5)
                 save(argv[5], &results, versions, limit);
         }
 
     for (size_t s = 0; s < sizeof sides / sizeof sides[0]; s++) {
-        if (is_wanted(&wanted, FRICTION_3D, sides[s] * sides[s]))
+        if (is_wanted(&wanted, family_name(FRICTION_3D), sides[s] * sides[s]))
             all_in_space(sides[s], limit, outcome, &results);
         if (argc > 5)
             save(argv[5], &results, versions, limit);
     }
+
+    static const size_t held[] = {64, 196, 529};
+    for (size_t s = 0; s < sizeof held / sizeof held[0]; s++)
+        for (size_t dim = 2; dim <= 3; dim++) {
+            if (is_wanted(&wanted, "held", held[s]))
+                held_out(dim, held[s], limit, outcome, &results);
+            if (argc > 5)
+                save(argv[5], &results, versions, limit);
+        }
 
     write_markdown(stdout, results.rows, results.count, versions, limit);
     free(results.rows);

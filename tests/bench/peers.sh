@@ -10,7 +10,7 @@
 #
 #     SIGNORINI_PEERS_LEAST, _MOST   smallest and largest number of pairs (both 25: half a minute)
 #     SIGNORINI_PEERS_SECONDS        CPU time that a call may take, default 30
-#     SIGNORINI_PEERS_FAMILY         frictionless, friction2d or friction3d; default all
+#     SIGNORINI_PEERS_FAMILY         frictionless, friction2d, friction3d or held; default all
 set -eu
 LC_ALL=C
 export LC_ALL
@@ -65,7 +65,7 @@ say "compiling the program: $cc"
         -D_POSIX_C_SOURCE=200809L "-DSICONOS=\"$version\"" \
         -I "$root/include" -isystem "$headers" -isystem "$headers/numerics" \
         -o "$build/peers.$$" peers.c peers_mesh.c peers_block.c peers_forms.c peers_siconos.c \
-        peers_ours.c peers_child.c peers_judge.c peers_table.c \
+        peers_held.c peers_ours.c peers_child.c peers_judge.c peers_table.c \
         "$root/target/release/libsignorini.a" \
         -lsiconos_numerics -l:libopenblas.so.0 -lm -lpthread -ldl)
 mv -f "$build/peers.$$" "$build/peers"

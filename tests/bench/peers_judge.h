@@ -17,7 +17,7 @@ struct row {
     size_t pairs;
     double mu;
     double ms; /* 0: none was measured */
-    double lu_ms; /* the yardstick of the problem, FRICTION_3D */
+    double lu_ms; /* the yardstick of the problem; 0: none */
     int iterations;
     double tolerance; /* that its solver was given */
     int fell_back;    /* ours: the method that came first did not end it */

@@ -30,7 +30,8 @@ enum geometry {
     BLOCK_RIM,
     COLUMN_10,
     COLUMN_20,
-    COLUMN_40
+    COLUMN_40,
+    HELD_OUT /* and after it, see peers_held.h */
 };
 
 /* K d = f + F, pairs (n, t) or (n, t1, t2), a gap for each: what signorini_solve takes. */

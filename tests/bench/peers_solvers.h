@@ -18,7 +18,7 @@ struct problem {
     struct contact contact;
     struct lcp stiffness;   /* FRICTIONLESS */
     struct lcp flexibility; /* of every family; empty where no peer runs */
-    double lu_ms;           /* FRICTION_3D: factorisation_ms() of this body */
+    double lu_ms;           /* factorisation_ms() of this body; 0 where it is not asked */
 };
 
 /* Meaning of a solver's numbers. */

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "../c/everything.h"
+#include "peers_held.h"
 
 const char *family_name(enum family family)
 {
@@ -18,7 +19,7 @@ const char *geometry_name(enum geometry geometry)
 {
     static const char *const names[] = {"bar", "two_blocks", "block_shift", "block_twist",
         "block_tilt", "block_waves", "block_rim", "column_10", "column_20", "column_40"};
-    return names[geometry];
+    return geometry < HELD_OUT ? names[geometry] : held_name(geometry - HELD_OUT);
 }
 
 static int is_peer(const struct row *row)
@@ -47,10 +48,10 @@ void write_csv(FILE *file, const struct row *rows, size_t count)
             fprintf(file, "%.3e", row->rel_error);
         fprintf(file, ",%s\n", row->status);
         /* The yardstick, once for each problem. */
-        if (row->solver->family == FRICTION_3D && !is_peer(row))
+        if (row->lu_ms > 0.0 && !is_peer(row))
             fprintf(file, "%s,%s,%zu,%g,lapack,dgetrf,%.6g,,,,yardstick\n",
-                    family_name(FRICTION_3D), geometry_name(row->geometry), row->pairs, row->mu,
-                    row->lu_ms);
+                    family_name(row->solver->family), geometry_name(row->geometry), row->pairs,
+                    row->mu, row->lu_ms);
     }
 }
 
@@ -111,45 +112,56 @@ static void say_mean(FILE *file, const char *what, const struct mean *mean)
                 exp(mean->logs / mean->count), mean->least);
 }
 
-/* In place of the least number of pairs. */
-#define COLUMNS SIZE_MAX
+/* Problems of which there is one mean. */
+enum group { USUAL, COLUMNS, HELD };
 
-static int is_column(const struct row *row)
+static const struct class {
+    enum family family;
+    enum group group;
+    size_t least, most; /* pairs */
+    const char *name;
+} classes[] = {
+    {FRICTIONLESS, USUAL, 0, 64, "frictionless, 33 pairs"},
+    {FRICTIONLESS, USUAL, 65, 256, "frictionless, 129 pairs"},
+    {FRICTIONLESS, USUAL, 257, SIZE_MAX, "frictionless, 513 pairs and more"},
+    {FRICTION_2D, USUAL, 0, 64, "friction in 2D, 33 pairs"},
+    {FRICTION_2D, USUAL, 65, 256, "friction in 2D, 129 pairs"},
+    {FRICTION_2D, USUAL, 257, SIZE_MAX, "friction in 2D, 513 pairs and more"},
+    {FRICTION_3D, USUAL, 0, 25, "friction in 3D, 25 pairs"},
+    {FRICTION_3D, USUAL, 225, 225, "friction in 3D, 225 pairs"},
+    {FRICTION_3D, USUAL, 961, 961, "friction in 3D, 961 pairs"},
+    {FRICTION_3D, USUAL, 2025, 2025, "friction in 3D, 2025 pairs"},
+    {FRICTION_3D, COLUMNS, 0, SIZE_MAX, "friction in 3D, slender columns"},
+    {FRICTION_2D, HELD, 0, 130, "held out, 2D, up to 130 pairs"},
+    {FRICTION_2D, HELD, 131, 400, "held out, 2D, 131 to 400"},
+    {FRICTION_2D, HELD, 401, SIZE_MAX, "held out, 2D, 401 and more"},
+    {FRICTION_3D, HELD, 0, 130, "held out, 3D, up to 130 pairs"},
+    {FRICTION_3D, HELD, 131, 400, "held out, 3D, 131 to 400"},
+    {FRICTION_3D, HELD, 401, SIZE_MAX, "held out, 3D, 401 and more"},
+};
+enum { CLASSES = sizeof classes / sizeof classes[0] };
+
+static enum group group_of(const struct row *row)
 {
-    return row->geometry >= COLUMN_10;
+    return row->geometry >= HELD_OUT ? HELD : row->geometry >= COLUMN_10 ? COLUMNS : USUAL;
+}
+
+/* True if a row of the default solver is one of a class. */
+static int is_of(const struct row *row, const struct class *class)
+{
+    return !is_peer(row) && strcmp(row->solver->name, "auto") == 0 && is_solved(row) &&
+           row->solver->family == class->family && group_of(row) == class->group &&
+           row->pairs >= class->least && row->pairs <= class->most;
 }
 
 static void speed_means(FILE *file, const struct row *rows, size_t count)
 {
-    static const struct {
-        enum family family;
-        size_t least, most;
-        const char *name;
-    } classes[] = {
-        {FRICTIONLESS, 0, 64, "frictionless, 33 pairs"},
-        {FRICTIONLESS, 65, 256, "frictionless, 129 pairs"},
-        {FRICTIONLESS, 257, 1 << 20, "frictionless, 513 pairs and more"},
-        {FRICTION_2D, 0, 64, "friction in 2D, 33 pairs"},
-        {FRICTION_2D, 65, 256, "friction in 2D, 129 pairs"},
-        {FRICTION_2D, 257, 1 << 20, "friction in 2D, 513 pairs and more"},
-        {FRICTION_3D, 0, 25, "friction in 3D, 25 pairs"},
-        {FRICTION_3D, 225, 225, "friction in 3D, 225 pairs"},
-        {FRICTION_3D, 961, 961, "friction in 3D, 961 pairs"},
-        {FRICTION_3D, COLUMNS, 0, "friction in 3D, slender columns"},
-    };
-    for (size_t c = 0; c < sizeof classes / sizeof classes[0]; c++) {
+    for (size_t c = 0; c < CLASSES; c++) {
         struct mean mean = {0};
         for (size_t k = 0; k < count; k++) {
-            const struct row *row = &rows[k];
-            if (is_peer(row) || strcmp(row->solver->name, "auto") != 0 ||
-                row->solver->family != classes[c].family || !is_solved(row) ||
-                is_column(row) != (classes[c].least == COLUMNS) ||
-                (!is_column(row) &&
-                 (row->pairs < classes[c].least || row->pairs > classes[c].most)))
-                continue;
-            const struct row *best = best_peer(rows, count, row);
-            if (best != NULL)
-                add(&mean, best->ms / row->ms);
+            const struct row *best = best_peer(rows, count, &rows[k]);
+            if (is_of(&rows[k], &classes[c]) && best != NULL)
+                add(&mean, best->ms / rows[k].ms);
         }
         say_mean(file, classes[c].name, &mean);
     }
@@ -183,23 +195,19 @@ static void lemke_means(FILE *file, const struct row *rows, size_t count)
 /* How much the default solve costs in units of one LU factorisation. */
 static void lu_means(FILE *file, const struct row *rows, size_t count)
 {
-    static const size_t sizes[] = {25, 225, 961, 2025};
     fprintf(file, "\n| default solve over one LU | problems | mean | most |\n"
                   "|---|---|---|---|\n");
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+    for (size_t c = 0; c < CLASSES; c++) {
         struct mean mean = {0};
         double most = 0.0;
-        for (size_t k = 0; k < count; k++) {
-            const struct row *row = &rows[k];
-            if (!is_peer(row) && row->solver->family == FRICTION_3D && row->pairs == sizes[s] &&
-                !is_column(row) && is_solved(row)) {
-                add(&mean, row->ms / row->lu_ms);
-                most = fmax(most, row->ms / row->lu_ms);
+        for (size_t k = 0; k < count; k++)
+            if (is_of(&rows[k], &classes[c]) && rows[k].lu_ms > 0.0) {
+                add(&mean, rows[k].ms / rows[k].lu_ms);
+                most = fmax(most, rows[k].ms / rows[k].lu_ms);
             }
-        }
         if (mean.count > 0)
-            fprintf(file, "| friction in 3D, %zu pairs | %d | %.2f | %.2f |\n", sizes[s],
-                    mean.count, exp(mean.logs / mean.count), most);
+            fprintf(file, "| %s | %d | %.2f | %.2f |\n", classes[c].name, mean.count,
+                    exp(mean.logs / mean.count), most);
     }
 }
 
@@ -240,9 +248,9 @@ static int table_row(FILE *file, const struct row *rows, size_t count, const str
         fprintf(file, "%.3g | ", row->ms);
     else
         fprintf(file, "%s | ", row->status);
-    if (row->solver->family == FRICTION_3D && is_solved(row))
+    if (row->lu_ms > 0.0 && is_solved(row))
         fprintf(file, "%.2f | ", row->ms / row->lu_ms);
-    else if (row->solver->family == FRICTION_3D)
+    else if (row->lu_ms > 0.0)
         fprintf(file, "- | ");
     if (best != NULL && is_solved(row)) {
         marked = !is_solved(best);
@@ -258,19 +266,19 @@ static int table_row(FILE *file, const struct row *rows, size_t count, const str
     return marked;
 }
 
-/* The problems in the plane, or those in space, which have a yardstick. */
-static void table(FILE *file, const struct row *rows, size_t count, int in_space)
+/* The problems without a yardstick, or those that have one. */
+static void table(FILE *file, const struct row *rows, size_t count, int has_lu)
 {
     int marked = 0, begun = 0;
     for (size_t k = 0; k < count; k++) {
         const struct row *row = &rows[k];
         if (is_peer(row) || strcmp(row->solver->name, "auto") != 0 ||
-            (row->solver->family == FRICTION_3D) != in_space)
+            (row->lu_ms > 0.0) != has_lu)
             continue;
         if (!begun)
             fprintf(file, "| family | geometry | pairs | mu | `auto`, ms |%s best of Siconos, ms | "
                           "ratio | which | not solved |\n|---|---|---|---|---|%s---|---|---|---|\n",
-                    in_space ? " over LU |" : "", in_space ? "---|" : "");
+                    has_lu ? " over LU |" : "", has_lu ? "---|" : "");
         begun = 1;
         marked |= table_row(file, rows, count, row);
     }
