@@ -316,7 +316,7 @@ typedef struct signorini_model signorini_model;
  * @param fixed     these degrees of freedom
  * @param pairs     the contact pairs
  * @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
- *                  and full_space. Ordering asks the callback every 0.2 s (1e5 unknowns)
+ *                  and full_space. Ordering asks the callback every 0.1 s (1e5 unknowns)
  * @param model     out: the model
  */
 int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, const int64_t *fixed,

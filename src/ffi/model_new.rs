@@ -91,7 +91,7 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 /// @param fixed     these degrees of freedom
 /// @param pairs     the contact pairs
 /// @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
-///                  and full_space. Ordering asks the callback every 0.2 s (1e5 unknowns)
+///                  and full_space. Ordering asks the callback every 0.1 s (1e5 unknowns)
 /// @param model     out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_sparse(

@@ -145,10 +145,13 @@ static int writes_it(void *argument)
 
 static void special_files(void)
 {
+    /* A chroot without /dev/pts has no terminals. */
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     char name[128] = "";
-    CHECK(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
-    CHECK(ptsname_r(terminal, name, sizeof name) == 0);
+    if (terminal >= 0) {
+        CHECK(grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+        CHECK(ptsname_r(terminal, name, sizeof name) == 0);
+    }
     CHECK(mkfifo("fifo", 0600) == 0 && mkdir("folder", 0700) == 0);
     const struct {
         const char *fault, *path;
@@ -159,10 +162,14 @@ static void special_files(void)
         struct refused writing = {kinds[i].path, "cannot be written: it is not a file"};
         char fault[80];
         snprintf(fault, sizeof fault, "%s in the place of a problem file", kinds[i].fault);
+        if (kinds[i].path[0] == '\0') {
+            printf("| %-66s | %-70s |\n", fault, "not tried: this system has none");
+            continue;
+        }
         row(fault, "refused at once, reading and writing",
             in_child(reads_it, &reading) == 0 && in_child(writes_it, &writing) == 0);
     }
-    close(terminal);
+    if (terminal >= 0) close(terminal);
     CHECK(remove("fifo") == 0 && rmdir("folder") == 0);
 }
 
