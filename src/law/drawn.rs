@@ -25,33 +25,3 @@ impl PairLaw {
         [normal, length / gauge * along[0], length / gauge * along[1]]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::law::{Bound, Piece, Tangential};
-    use crate::linalg::perturbation::Perturbation;
-
-    /// Coulomb's law and Tresca's, in the plane and in space: each piece comes a third of the time.
-    #[test]
-    fn pieces_are_drawn_alike() {
-        for (dim, bound) in
-            [(2, Bound { slope: 0.3, offset: 0.0 }), (3, Bound { slope: 20.0, offset: 1.0 })]
-        {
-            let law = PairLaw::new(dim, 0.5, [0.0; 2], bound, (4.0, 9.0));
-            let mut random = Perturbation::new(1);
-            let (mut open, mut stick, mut slip) = (0, 0, 0);
-            for _ in 0..3000 {
-                let Piece { closed, tangential } = law.piece(&law.drawn(2.0, || random.next()));
-                open += u32::from(!closed);
-                let sticks = tangential == Tangential::Stick;
-                stick += u32::from(closed && sticks);
-                slip += u32::from(closed && !sticks);
-            }
-            // The standard deviation is 26.
-            for count in [open, stick, slip] {
-                assert!((900..1100).contains(&count), "{open}, {stick}, {slip}");
-            }
-        }
-    }
-}

@@ -120,7 +120,7 @@ impl PairLaw {
         let tangential = if slip == 0.0 {
             y[1].max(-bound).min(bound)
         } else {
-            self.k_t * slip + bound * slip.signum()
+            self.k_t * slip + bound.copysign(slip)
         };
         self.sure_start([normal, tangential])
     }

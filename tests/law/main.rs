@@ -8,8 +8,11 @@ mod laws;
 
 mod boundaries;
 mod by_pair;
+mod drawn;
 mod friction_laws;
+mod levelled;
 mod pieces;
+mod planar;
 mod remarks;
 mod rounding;
 mod statement;

@@ -170,7 +170,8 @@ impl<'s> Neighbourhood<'s> {
         rows.map(|(row, turned)| {
             let (at, c) = (dim * row.pair, row.component);
             let mut doubt = sum_up(changed[at + c], turned);
-            if c > 0 && system.pairs[row.pair].is_dragged() {
+            // A pair that is dragged is closed: its normal component is no unknown.
+            if system.pairs[row.pair].is_dragged() {
                 let drag = system.pairs[row.pair].drag(&self.locals[row.pair])[c - 1];
                 let used = system.slopes[row.pair].drag[c - 1];
                 let size = sum_up(used.abs(), difference(drag, used));
