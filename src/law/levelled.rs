@@ -26,7 +26,8 @@ const UNLIKE: f64 = 100.0;
 pub struct LevelledTangents {
     /// `Q diag(1, s)`, by rows.
     basis: Plane,
-    half_axes: [f64; 2],
+    /// `s`.
+    share: f64,
     /// `k_1`.
     stiffness: f64,
 }
@@ -42,7 +43,7 @@ impl LevelledTangents {
         let share = (softer / stiffer).max(0.0).sqrt().max(1.0 / FLATTEST);
         (softer > 0.0 && softer * UNLIKE < stiffer).then(|| LevelledTangents {
             basis: [[x, -y * share], [y, x * share]],
-            half_axes: [1.0, share],
+            share,
             stiffness: softer,
         })
     }
@@ -59,16 +60,15 @@ impl LevelledTangents {
 
     /// `d_t'` of `d_t`.
     pub fn levelled(&self, displacement: [f64; 2]) -> [f64; 2] {
-        let squares = self.half_axes.map(|axis| axis * axis);
         let [first, second] = self.force(displacement);
-        [first / squares[0], second / squares[1]]
+        [first, second / (self.share * self.share)]
     }
 
     /// The law of the pair in these coordinates.
     pub fn law(&self, law: &PairLaw) -> PairLaw {
         let slip0 = self.levelled(law.slip0);
         let levelled = PairLaw { slip0, k_t: self.stiffness, ..*law };
-        let ellipse = Ellipse::new(self.half_axes, 0.0, Rule::Associated);
+        let ellipse = Ellipse::new([1.0, self.share], 0.0, Rule::Associated);
         if law.has_friction() { levelled.with_ellipse(ellipse) } else { levelled }
     }
 }

@@ -57,6 +57,7 @@ fn other_coordinates_are_for_unlike_stiffnesses_alone() {
         ([1.0, 1.0], false),
         ([1.0, 90.0], false),
         ([90.0, 1.0], false),
+        ([1e6, 9e7], false),
         ([1.0, 110.0], true),
         ([110.0, 1.0], true),
         ([1.0, 1e8], true),
@@ -71,6 +72,7 @@ fn other_coordinates_are_for_unlike_stiffnesses_alone() {
             assert!(LevelledTangents::of(&other, block).is_none(), "{stiffnesses:?}");
         }
     }
+    assert!(LevelledTangents::of(&in_space, [0.0, 0.0, 1.0]).is_none(), "nothing resists");
 }
 
 /// An ellipse is no flatter than the header admits for one of a host, one millionth, however far apart the stiffnesses are.

@@ -9,6 +9,7 @@ mod laws;
 mod boundaries;
 mod by_pair;
 mod drawn;
+mod ellipse;
 mod friction_laws;
 mod levelled;
 mod pieces;

@@ -1,9 +1,10 @@
 //! The bounds that the law states for its natural map: on its rounding, and on its change with the force. They hold,
 //! and they are close.
 
-use crate::laws::{Numbers, direction, norm, uniform};
+use crate::laws::{Axes, Numbers, direction, norm, uniform};
 use fastrand::Rng;
-use signorini::law::PairLaw;
+use signorini::file::Law;
+use signorini::law::{PairLaw, Rule};
 
 const POINTS: usize = 3000;
 
@@ -105,4 +106,20 @@ fn a_change_of_the_force_changes_the_residual_by_the_bound_at_most() {
         }
     }
     assert!(closest > 0.25 && elliptic > 0.25, "{closest}, {elliptic}");
+}
+
+/// On its own line the friction `g y / |W y|` of a flat ellipse turns with the force by about `|W|`: with `y = (1, 1e-4)`, half-axes
+/// 1 and 1e-4 and `g = 1` it is `y / 2^½` and changes by `-(y_1 / 2^½) 1e4 / 2` along the long axis.
+#[test]
+fn a_flat_ellipse_turns_its_friction_by_its_norm() {
+    let flat = 1e-4;
+    let axes = Axes { mu: [1.0, flat], angle: 0.0, rule: Rule::Collinear };
+    let numbers = Numbers { axes: Some(axes), ..Numbers::of(3, (Law::Coulomb, &[1.0])) };
+    let (law, d, by) = (numbers.law(), [0.0, 1.0, flat], 1e-9);
+    let [before, after] = [0.0, by].map(|by| residual(&law, 3, &d, &[-1.0, 0.0, -by]));
+    let change = (after[1] - before[1]).hypot(after[2] - before[2]) / by;
+    let expected = 1.0 / (2.0 * 2_f64.sqrt() * flat);
+    // A change by 1e-5 of the length along the short axis, and rounding of 1 over it.
+    assert!((change / expected - 1.0).abs() <= 1e-3, "{change:e}");
+    assert!(change <= law.sensitivity(), "{change:e} > {:e}", law.sensitivity());
 }

@@ -4,6 +4,7 @@ use crate::common::dense::{Elimination, largest, product};
 use crate::common::problems::{Case, Law, decades, definite, loaded, mixed, uniform, vector};
 use fastrand::Rng;
 use signorini::certificate::{certify, is_escape, prove};
+use signorini::law::{Bound, PairLaw, first_open_tie};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Method, Monitor,
     Search, Settings, Solution, State, Status, Uniqueness, solve, solve_flexibility,
@@ -401,5 +402,54 @@ fn ties_on_a_matrix_that_is_not_symmetric() {
                 "seed {seed}"
             );
         }
+    }
+}
+
+/// The first of the pairs asked for that is tied across a gap, or across an interference, with that gap. A gap of 0 is closed,
+/// a pair without an obstacle is free, and nothing is told of a law whose numbers are not all there.
+#[test]
+fn the_first_open_tie_is_found() {
+    let coulomb = [1.0, 0.5, 0.0, 0.0];
+    let numbers = [TIED, coulomb, TIED, TIED, TIED].concat();
+    let gaps = [0.0, 2.0, -0.5, 3.0, f64::INFINITY];
+    let first = |law, pairs: &[usize]| first_open_tie((&gaps, law), pairs.iter().copied());
+    let by_pair = FrictionLaw::ByPair(&numbers);
+    for (pairs, expected) in [
+        (&[0, 1, 2, 3, 4][..], Some((2, -0.5))),
+        (&[4, 3, 2], Some((3, 3.0))),
+        (&[0, 1, 4], None),
+        (&[9, 3], Some((3, 3.0))),
+        (&[9], None),
+    ] {
+        assert_eq!(first(by_pair, pairs), expected, "{pairs:?}");
+    }
+    assert_eq!(first(FrictionLaw::Tied, &[0, 1, 2]), Some((1, 2.0)));
+    assert_eq!(first(FrictionLaw::Tied, &[0, 4]), None);
+    assert_eq!(first(FrictionLaw::Frictionless, &[0, 1, 2]), None);
+    assert_eq!(first(FrictionLaw::ByPair(&numbers[..16]), &[2, 3, 4]), None);
+}
+
+/// A tie lacks what it is away from its reference, in forces, whatever its force is, and nothing of that is rounded beside
+/// a force. All numbers are exact.
+#[test]
+fn a_tie_lacks_its_distance_from_its_reference() {
+    let bound = Bound { slope: 0.5, offset: 1.0 };
+    let tie = PairLaw::new(3, 0.5, [2.0, -1.0], bound, (4.0, 8.0)).with_tie();
+    for force in [[0.0; 3], [-1.0, 5.0, -3.0], [2.0, 0.0, 7.0]] {
+        for (d, expected) in [
+            ([0.5, 2.0, -1.0], [0.0; 3]),
+            ([1.5, 2.5, 0.0], [4.0, 4.0, 8.0]),
+            ([-1.5, 1.0, -2.0], [-8.0, -8.0, -8.0]),
+        ] {
+            let mut residual = [0.0; 3];
+            tie.natural_residual(&d, &force, &mut residual);
+            assert_eq!(residual, expected, "{d:?}, {force:?}");
+            assert_eq!((tie.natural_rounding(&d, &force), tie.sensitivity()), (0.0, 0.0));
+            assert_eq!(tie.state(&d, &force, 1e-3), State::Stick);
+            let violation = tie.violation(&d, &force);
+            let lengths = (violation.penetration, violation.tension, violation.cone_excess);
+            assert_eq!(lengths, (f64::abs(expected[0]) / 4.0, 0.0, 0.0), "{d:?}, {force:?}");
+        }
+        assert_eq!(tie.admissible_force(&force, State::Stick), force);
     }
 }
