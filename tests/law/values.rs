@@ -8,7 +8,7 @@ use fastrand::Rng;
 use signorini::law::Tangential;
 use signorini::law::complementarity::{is_bounded, is_stopped, lower_bounds};
 use signorini::law::{
-    Bound, Contact, FixedState, PairLaw, Rule, State, exceed_gaps, friction_is_large,
+    Bound, Contact, FixedState, Image, PairLaw, Rule, State, exceed_gaps, friction_is_large,
     gaps_within_reach, pressing, touching,
 };
 use signorini::{ContactData, ContactProblem, FrictionLaw};
@@ -362,4 +362,33 @@ fn only_coefficients_are_large_friction() {
 fn a_positive_normal_force_pulls() {
     let law = PairLaw::new(2, 0.0, [0.0; 2], Bound { slope: 0.3, offset: 0.0 }, (1.0, 1.0));
     assert!(law.is_tensile(1.0) && !law.is_tensile(-1.0) && !law.is_tensile(0.0));
+}
+
+/// Contact prescribes a displacement by a slip that has been, and by a gap that has closed: the largest of these lengths.
+#[test]
+fn contact_prescribes_closed_gaps_and_earlier_slips() {
+    let law = |gap| {
+        let bound = Bound { slope: 0.3, offset: 0.0 };
+        PairLaw::new(3, gap, [2.0, -3.0], bound, (1.0, 1.0))
+    };
+    for (gap, d_n, expected) in [
+        (5.0, 5.0, 5.0),
+        (5.0, 6.0, 5.0),
+        (5.0, 4.0, 3.0),
+        (-7.0, 0.0, 7.0),
+        (-7.0, -8.0, 3.0),
+        (1.0, 1.0, 3.0),
+        (f64::INFINITY, 9.0, 3.0),
+    ] {
+        assert_eq!(law(gap).prescribed(d_n), expected, "{gap}, {d_n}");
+    }
+    assert_eq!(law(5.0).with_tie().prescribed(0.0), 5.0);
+}
+
+/// An image of whole numbers multiplies another vector as vectors do.
+#[test]
+fn an_image_multiplies_as_a_vector() {
+    let image = Image::of(vec![2.0, -3.0, 5.0]);
+    assert_eq!(image.dot(&[7.0, 11.0, 13.0]), 46.0);
+    assert_eq!(image.dot(&[3.0, 2.0, 0.0]), 0.0);
 }
