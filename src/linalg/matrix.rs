@@ -8,14 +8,14 @@ use super::vector::largest_of;
 use crate::workers::{pieces, reading};
 
 /// Rows and columns of a square tile: what stands across its diagonal is read from cache.
-pub const TILE: usize = 32;
+pub const TILE: usize = 64;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
     size: usize,
-    entries: &'a [f64],
-    ld: usize,
+    pub(super) entries: &'a [f64],
+    pub(super) ld: usize,
 }
 
 impl<'a> Matrix<'a> {

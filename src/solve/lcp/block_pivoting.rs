@@ -214,17 +214,12 @@ impl Iterate<'_> {
         self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
         let moved = self.systems.step(&lack.collect::<Vec<f64>>()).ok_or(Ending::Singular)?;
-        for (i, step) in step.iter_mut().enumerate() {
-            *step = if basic[i] { moved[i][0] / self.units[i] } else { 0.0 };
-            self.x[i] += *step;
-        }
-        if lcp.remembered.is_none() {
-            lcp.matrix.add_product(&step, &mut self.w);
-            return Ok(());
-        }
-        // Of a step after others the solution tells `w` too, and the certificate tells it again.
-        for ((w, moved), &basic) in self.w.iter_mut().zip(&moved).zip(basic) {
-            *w = if basic { 0.0 } else { *w - moved[0] };
+        // The solution tells `w` too; what it is worth is measured where it ends.
+        for (i, moved) in moved.iter().enumerate() {
+            match basic[i] {
+                true => (self.x[i], self.w[i]) = (self.x[i] + moved[0] / self.units[i], 0.0),
+                false => self.w[i] -= moved[0],
+            }
         }
         Ok(())
     }

@@ -219,7 +219,7 @@ impl<'e, 'm> Newton<'e, 'm> {
         equations.matrix.add_product(&change, &mut lack);
         let pairs = equations.linearised(&pieces, &y);
         let kept = self.factor(pieces, pairs)?;
-        let (steps, _) = kept.system.step(&lack, 0.0)?;
+        let (steps, _) = kept.system.step(equations, &lack, 0.0)?;
         let pairs = equations.laws.iter().zip(kept.system.pairs()).zip(&steps);
         for (((law, pair), dy), change) in pairs.zip(change.chunks_exact_mut(dim)) {
             let moved = law.displacement_by(&pair.moved(dy));

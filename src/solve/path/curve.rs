@@ -195,7 +195,8 @@ impl<'h> Curve<'h> {
         let (pairs, asking) = ((pairs, place.s), &mut monitor.asking());
         let system = System::new(equations, pairs, Some(&border), SINGULAR, asking);
         let Some(mut system) = system else { return Ok(None) };
-        let Some((y, s)) = system.step(&vec![0.0; value.lack.len()], 1.0) else { return Ok(None) };
+        let nothing = vec![0.0; value.lack.len()];
+        let Some((y, s)) = system.step(equations, &nothing, 1.0) else { return Ok(None) };
         let mut tangent = PathPoint { y, s };
         let length = self.homotopy.norm(&tangent);
         tangent.scale(f64::from(system.orientation()) / length);
@@ -236,7 +237,8 @@ impl<'h> Curve<'h> {
             }
             before = now;
             let local = fresh.as_mut().unwrap_or(local);
-            let Some((y, s)) = local.system.step(&value.lack, 0.0) else { return Ok(None) };
+            let step = local.system.step(self.homotopy.equations, &value.lack, 0.0);
+            let Some((y, s)) = step else { return Ok(None) };
             let z = PathPoint { y, s };
             let along = normal.apply(&local.tangent);
             let part = (-miss - normal.apply(&z)) / along;

@@ -46,8 +46,9 @@ pub struct System {
     pairs: Vec<Linearised>,
     slopes: Vec<Slopes>,
     unknowns: Vec<Unknown>,
-    /// Components that are no unknowns, and the row of `K` of each with the columns of the unknowns.
+    /// Components that are no unknowns.
     held: Vec<usize>,
+    /// The row of `K` of each of these with the columns of the unknowns, once several solutions at a time have asked.
     rows: Vec<f64>,
     factor: Factor,
     border: Option<Bordered>,
@@ -104,7 +105,7 @@ impl System {
                 (factor, Some(bordered))
             }
         };
-        let rows = rows(equations, &held, &unknowns);
+        let rows = Vec::new();
         Some(System { dim, all, s, pairs, slopes, unknowns, held, rows, factor, border })
     }
 
@@ -123,8 +124,13 @@ impl System {
         self.unknowns.len()
     }
 
-    /// `(dy, ds)` for the lack `H` and what the border wants, 0 without one; `None` if it overflows.
-    pub fn step(&mut self, lack: &[f64], wanted: f64) -> Option<(Vec<Vector>, f64)> {
+    /// `(dy, ds)` for the lack `H` of the equations and what the border wants, 0 without one; `None` if it overflows.
+    pub fn step(
+        &mut self,
+        equations: &Equations<'_>,
+        lack: &[f64],
+        wanted: f64,
+    ) -> Option<(Vec<Vector>, f64)> {
         let mut b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
         let mut x = self.right_sides(&b);
         if let Some(border) = &self.border {
@@ -140,15 +146,15 @@ impl System {
             x.truncate(self.unknowns.len());
             b.iter_mut().zip(&border.rate).for_each(|(b, rate)| *b -= rate * ds);
         }
-        let dy = self.coordinates(&b, &x);
+        let dy = self.coordinates(equations, &b, &x);
         Some((by_pairs(self.dim, &dy), ds))
     }
 
     /// `J⁻¹ b` for each column of `b`, without a border.
-    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
+    pub fn solve(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
         let mut x = self.right_sides(b);
         self.factor.solve(&mut x);
-        self.coordinates(b, &x)
+        self.coordinates(equations, b, &x)
     }
 
     /// True if the system is one of these equations, whose matrix it has.
@@ -184,15 +190,9 @@ impl System {
     }
 
     /// `dy` from the unknowns, for each column of `b`.
-    fn coordinates(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+    fn coordinates(&mut self, equations: &Equations<'_>, b: &[f64], x: &[f64]) -> Vec<f64> {
         let (dim, size, count) = (self.dim, self.all, self.size());
-        let mut pushes = Vec::with_capacity(b.len() / size.max(1) * self.held.len());
-        for b in b.chunks_exact(size.max(1)) {
-            pushes.extend(self.held.iter().map(|&i| b[i]));
-        }
-        let mut moved = x.to_vec();
-        moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
-        subtract_product(&mut pushes, &self.rows, &moved, count);
+        let pushes = self.pushes(equations, b, x);
         let mut dy = vec![0.0; b.len()];
         for (column, dy) in dy.chunks_exact_mut(size.max(1)).enumerate() {
             for (unknown, x) in self.unknowns.iter().zip(&x[column * count..]) {
@@ -205,6 +205,28 @@ impl System {
             pairs.for_each(|(pair, dy)| pair.complete(dy));
         }
         dy
+    }
+
+    /// `b - K_s dd` of the components that are held, for each column of `b`.
+    fn pushes(&mut self, equations: &Equations<'_>, b: &[f64], x: &[f64]) -> Vec<f64> {
+        let (dim, size, count) = (self.dim, self.all.max(1), self.size());
+        let mut moved = x.to_vec();
+        moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
+        if b.len() > size && self.rows.is_empty() {
+            self.rows = rows(equations, &self.held, &self.unknowns);
+        }
+        if self.rows.is_empty() {
+            let (mut dd, mut sum) = (vec![0.0; b.len()], vec![0.0; b.len()]);
+            for (unknown, moved) in self.unknowns.iter().zip(moved) {
+                dd[dim * unknown.pair + unknown.component] = moved;
+            }
+            equations.matrix.add_product(&dd, &mut sum);
+            return self.held.iter().map(|&i| b[i] - sum[i]).collect();
+        }
+        let mut pushes = Vec::with_capacity(b.len() / size * self.held.len());
+        b.chunks_exact(size).for_each(|b| pushes.extend(self.held.iter().map(|&i| b[i])));
+        subtract_product(&mut pushes, &self.rows, &moved, count);
+        pushes
     }
 
     /// Turns a column of unknowns into `s` times the displacements of the components that move.

@@ -168,7 +168,7 @@ impl<'e> Updated<'e> {
 
     /// `J⁻¹ b`.
     pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
-        let mut x = self.base.solve(b);
+        let mut x = self.base.solve(self.equations, b);
         self.pass(&mut x);
         x
     }
@@ -205,7 +205,7 @@ impl<'e> Updated<'e> {
                 return None;
             }
             let sides = self.equations.change_columns(components);
-            let columns = self.base.solve(&sides);
+            let columns = self.base.solve(self.equations, &sides);
             self.columns.add(components, &columns);
         }
         Some(())
