@@ -44,22 +44,22 @@ impl Matrix<'_> {
         let mut copies = vec![0.0; if is_copied { 2 * TILE * TILE } else { 0 }];
         let half = copies.len() / 2;
         let (lower, upper) = copies.split_at_mut(half);
-        (columns.start..end).step_by(TILE).all(|first| {
+        for first in (columns.start..end).step_by(TILE) {
             let rows = first..end.min(first + TILE);
             let places = (rows.clone(), columns.clone());
-            if !is_copied {
-                let tile = |rows, columns| self.tile(rows, columns);
-                return blocks_agree(
-                    tile(first, columns.start),
-                    tile(columns.start, first),
-                    places,
-                    limits,
-                );
+            let agree = if is_copied {
+                self.copy(&rows, &columns, lower);
+                self.copy(&columns, &rows, upper);
+                blocks_agree((lower, TILE), (upper, TILE), places, limits)
+            } else {
+                let tiles = (self.tile(first, columns.start), self.tile(columns.start, first));
+                blocks_agree(tiles.0, tiles.1, places, limits)
+            };
+            if !agree {
+                return false;
             }
-            self.copy(&rows, &columns, lower);
-            self.copy(&columns, &rows, upper);
-            blocks_agree((lower, TILE), (upper, TILE), places, limits)
-        })
+        }
+        true
     }
 
     /// The tile that begins with this row and column.

@@ -22,11 +22,16 @@ pub fn sweep(
     omega: f64,
 ) -> f64 {
     let dim = matrix.size() / laws.len().max(1);
-    let relax = |i: usize, force: &[f64]| {
-        let coupling = &matrix.column(i)[i + 1..i + dim];
-        laws[i / dim].relax(&mut d[i..i + dim], force, coupling, omega)
-    };
-    over_all(matrix, dim.max(1), force, relax)
+    over_all(
+        matrix,
+        dim.max(1),
+        force,
+        #[inline(always)]
+        |i, force| {
+            let coupling = &matrix.column(i)[i + 1..i + dim];
+            laws[i / dim].relax(&mut d[i..i + dim], force, coupling, omega)
+        },
+    )
 }
 
 /// An iterate with its force.

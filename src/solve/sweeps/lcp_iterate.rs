@@ -10,14 +10,19 @@ use crate::problem::BoundedLcp;
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
 /// the change in the norm of the diagonal of `M`.
 pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
-    let relax = |i: usize, w: &[f64]| {
-        let unit = lcp.matrix.at(i, i);
-        let value = lcp.admissible(i, x[i] - omega * w[0] / unit);
-        let step = value - x[i];
-        x[i] = value;
-        ([step, 0.0, 0.0], unit * step * step)
-    };
-    over_all(lcp.matrix, 1, w, relax)
+    over_all(
+        lcp.matrix,
+        1,
+        w,
+        #[inline(always)]
+        |i, w| {
+            let unit = lcp.matrix.at(i, i);
+            let value = lcp.admissible(i, x[i] - omega * w[0] / unit);
+            let step = value - x[i];
+            x[i] = value;
+            ([step, 0.0, 0.0], unit * step * step)
+        },
+    )
 }
 
 /// An iterate with its `w`.
