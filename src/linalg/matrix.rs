@@ -14,8 +14,8 @@ pub const TILE: usize = 64;
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
     size: usize,
-    pub(super) entries: &'a [f64],
-    pub(super) ld: usize,
+    entries: &'a [f64],
+    ld: usize,
 }
 
 impl<'a> Matrix<'a> {

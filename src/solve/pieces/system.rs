@@ -37,6 +37,10 @@ pub struct Border<'b> {
     pub unit: f64,
 }
 
+/// Solutions of a system from which on the rows of held components are gathered: that takes the time of about so many
+/// products with `K`.
+const GATHERED: usize = 5;
+
 /// A factorised system.
 pub struct System {
     /// Components of a pair, and of all pairs.
@@ -48,8 +52,9 @@ pub struct System {
     unknowns: Vec<Unknown>,
     /// Components that are no unknowns.
     held: Vec<usize>,
-    /// The row of `K` of each of these with the columns of the unknowns, once several solutions at a time have asked.
+    /// The row of `K` of each of these with the columns of the unknowns, once [`GATHERED`] solutions have been asked for.
     rows: Vec<f64>,
+    solutions: usize,
     factor: Factor,
     border: Option<Bordered>,
 }
@@ -105,8 +110,8 @@ impl System {
                 (factor, Some(bordered))
             }
         };
-        let rows = Vec::new();
-        Some(System { dim, all, s, pairs, slopes, unknowns, held, rows, factor, border })
+        let (rows, solutions) = (Vec::new(), 0);
+        Some(System { dim, all, s, pairs, slopes, unknowns, held, rows, solutions, factor, border })
     }
 
     /// Sign of the determinant.
@@ -212,20 +217,25 @@ impl System {
         let (dim, size, count) = (self.dim, self.all.max(1), self.size());
         let mut moved = x.to_vec();
         moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
-        if b.len() > size && self.rows.is_empty() {
-            self.rows = rows(equations, &self.held, &self.unknowns);
-        }
-        if self.rows.is_empty() {
-            let (mut dd, mut sum) = (vec![0.0; b.len()], vec![0.0; b.len()]);
-            for (unknown, moved) in self.unknowns.iter().zip(moved) {
-                dd[dim * unknown.pair + unknown.component] = moved;
-            }
-            equations.matrix.add_product(&dd, &mut sum);
-            return self.held.iter().map(|&i| b[i] - sum[i]).collect();
-        }
         let mut pushes = Vec::with_capacity(b.len() / size * self.held.len());
         b.chunks_exact(size).for_each(|b| pushes.extend(self.held.iter().map(|&i| b[i])));
-        subtract_product(&mut pushes, &self.rows, &moved, count);
+        self.solutions += b.len() / size;
+        if self.rows.is_empty() && self.solutions >= GATHERED {
+            self.rows = rows(equations, &self.held, &self.unknowns);
+        }
+        if !self.rows.is_empty() {
+            subtract_product(&mut pushes, &self.rows, &moved, count);
+            return pushes;
+        }
+        let mut dd = vec![0.0; size];
+        let columns = pushes.chunks_exact_mut(self.held.len().max(1));
+        for (pushes, moved) in columns.zip(moved.chunks_exact(count.max(1))) {
+            for (unknown, moved) in self.unknowns.iter().zip(moved) {
+                dd[dim * unknown.pair + unknown.component] = *moved;
+            }
+            let product = equations.matrix.product(&dd);
+            pushes.iter_mut().zip(&self.held).for_each(|(push, &i)| *push -= product[i]);
+        }
         pushes
     }
 
