@@ -6,7 +6,7 @@ use std::ops::{Index, IndexMut};
 use faer::{MatMut, MatRef};
 
 /// Numbers of a line of the cache: each column begins at one.
-const LINE: usize = 8;
+pub const LINE: usize = 8;
 
 /// A matrix whose columns are contiguous.
 #[derive(Debug)]

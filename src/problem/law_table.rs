@@ -1,5 +1,7 @@
 //! The table of the friction laws: their names, their parameters, and what is said of each.
 
+use crate::linalg::tolerances::FEW_OPERATIONS;
+
 /// A friction law without its parameters. Its place is its number in the C interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
@@ -122,14 +124,12 @@ const ELLIPTIC: Statement = Statement {
 /// a few digits must be left.
 pub(crate) const FLATTEST: f64 = 1e6;
 
-/// Units in the last place by which `b` may fall below `mu a`: the host has rounded a product.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
-
 /// Refuses a cohesion below what the tension asks for.
 fn cohesion(numbers: &[f64]) -> Option<(usize, String)> {
     let &[mu, b, a] = numbers else { return None };
     let least = mu * a;
-    (b < least * (1.0 - ROUNDED)).then(|| {
+    // The host has rounded a product.
+    (b < least * (1.0 - FEW_OPERATIONS)).then(|| {
         let what = format!(
             " is {b}, it must be at least mu a = {mu} * {a} = {least}: friction would be negative under \
              the tension a"

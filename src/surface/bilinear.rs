@@ -5,10 +5,8 @@
 use super::clip::Point;
 use super::face::Face;
 use super::shape::{FaceKind, Local};
+use crate::linalg::tolerances::FEW_OPERATIONS;
 use crate::linalg::vector3::Vector3;
-
-/// A square this much below zero is zero: the rounding of its terms.
-const ZERO: f64 = 16.0 * f64::EPSILON;
 
 /// `x = c0 + c1 s + c2 t + c3 s t`, of both coordinates in the plane and of the height above it.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +61,7 @@ impl Bilinear {
         let skew = across - along;
         let square = (1.0 + skew) * (1.0 + skew) + 4.0 * along;
         // At a corner that is straight it is zero but for rounding.
-        let least = -ZERO * (1.0 + skew * skew);
+        let least = -2.0 * FEW_OPERATIONS * (1.0 + skew * skew);
         let jacobian = if square < 0.0 && square >= least { 0.0 } else { square.sqrt() };
         let at = [2.0 * s / (1.0 - skew + jacobian), 2.0 * t / (1.0 + skew + jacobian)];
         (at[0].is_finite() && at[1].is_finite()).then_some(at)

@@ -13,14 +13,12 @@ use super::system::{Centre, Solver, System};
 use crate::law::{EnclosedPiece, Local, Unknown};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector, product_up, sum_up};
+use crate::linalg::tolerances::FEW_OPERATIONS;
 use crate::linalg::vector::first_not_finite;
 use crate::linalg::watched::GoesOn;
 
 /// The box, in units of the first correction: `alpha` may be a half.
 const BOX: f64 = 2.0;
-
-/// Rounding of an entry of the matrix, relative to its terms: six operations at most.
-const ASSEMBLY: f64 = 4.0 * f64::EPSILON;
 
 /// A box that holds a solution.
 pub struct Enclosure {
@@ -159,7 +157,7 @@ impl<'s> Neighbourhood<'s> {
             difference(self.locals[unknown.pair].motion[c][column], used)
         });
         for unknown in system.unknowns.iter().filter(|unknown| unknown.component == 0) {
-            change[dim * unknown.pair] = product_up(ASSEMBLY, unknown.column);
+            change[dim * unknown.pair] = product_up(FEW_OPERATIONS, unknown.column);
         }
         let changed = bound_of_product(system.contact.problem(), &change);
         let mut turned = vec![0.0; system.unknowns.len()];
@@ -227,7 +225,7 @@ impl<'s> Neighbourhood<'s> {
 /// Not below the distance of any number of the ball to the one that was used, with the rounding of what was
 /// made with it.
 fn difference(ball: Ball, used: f64) -> f64 {
-    sum_up(ball.distance_to(used), product_up(ASSEMBLY, used.abs()))
+    sum_up(ball.distance_to(used), product_up(FEW_OPERATIONS, used.abs()))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 mod before;
 mod columns;
 mod equations;
+mod held;
 mod system;
 mod systems;
 mod term;

@@ -17,13 +17,12 @@
 //! components that are eliminated have the pivot 1.
 
 use super::equations::{Equations, by_pairs};
+use super::held::Held;
 use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
-use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
-use crate::linalg::watched::{BLOCK, GoesOn};
-use crate::workers::{each, reading};
+use crate::linalg::watched::GoesOn;
 
 /// The border of a system: `border . (dy, ds) = wanted`.
 pub struct Border<'b> {
@@ -37,10 +36,6 @@ pub struct Border<'b> {
     pub unit: f64,
 }
 
-/// Solutions of a system from which on the rows of held components are gathered: that takes the time of about so many
-/// products with `K`.
-const GATHERED: usize = 5;
-
 /// A factorised system.
 pub struct System {
     /// Components of a pair, and of all pairs.
@@ -51,10 +46,7 @@ pub struct System {
     slopes: Vec<Slopes>,
     unknowns: Vec<Unknown>,
     /// Components that are no unknowns.
-    held: Vec<usize>,
-    /// The row of `K` of each of these with the columns of the unknowns, once [`GATHERED`] solutions have been asked for.
-    rows: Vec<f64>,
-    solutions: usize,
+    held: Held,
     factor: Factor,
     border: Option<Bordered>,
 }
@@ -110,8 +102,8 @@ impl System {
                 (factor, Some(bordered))
             }
         };
-        let (rows, solutions) = (Vec::new(), 0);
-        Some(System { dim, all, s, pairs, slopes, unknowns, held, rows, solutions, factor, border })
+        let held = Held::new(held);
+        Some(System { dim, all, s, pairs, slopes, unknowns, held, factor, border })
     }
 
     /// Sign of the determinant.
@@ -197,46 +189,22 @@ impl System {
     /// `dy` from the unknowns, for each column of `b`.
     fn coordinates(&mut self, equations: &Equations<'_>, b: &[f64], x: &[f64]) -> Vec<f64> {
         let (dim, size, count) = (self.dim, self.all, self.size());
-        let pushes = self.pushes(equations, b, x);
+        let mut moved = x.to_vec();
+        moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
+        let pushes = self.held.pushes(equations, &self.unknowns, (b, &moved));
         let mut dy = vec![0.0; b.len()];
         for (column, dy) in dy.chunks_exact_mut(size.max(1)).enumerate() {
             for (unknown, x) in self.unknowns.iter().zip(&x[column * count..]) {
                 dy[dim * unknown.pair + unknown.component] = x * unknown.column;
             }
-            for (&i, push) in self.held.iter().zip(&pushes[column * self.held.len()..]) {
+            let held = &self.held.components;
+            for (&i, push) in held.iter().zip(&pushes[column * held.len()..]) {
                 dy[i] = *push;
             }
             let pairs = self.pairs.iter().zip(dy.chunks_exact_mut(dim));
             pairs.for_each(|(pair, dy)| pair.complete(dy));
         }
         dy
-    }
-
-    /// `b - K_s dd` of the components that are held, for each column of `b`.
-    fn pushes(&mut self, equations: &Equations<'_>, b: &[f64], x: &[f64]) -> Vec<f64> {
-        let (dim, size, count) = (self.dim, self.all.max(1), self.size());
-        let mut moved = x.to_vec();
-        moved.chunks_exact_mut(count.max(1)).for_each(|moved| self.displace(moved));
-        let mut pushes = Vec::with_capacity(b.len() / size * self.held.len());
-        b.chunks_exact(size).for_each(|b| pushes.extend(self.held.iter().map(|&i| b[i])));
-        self.solutions += b.len() / size;
-        if self.rows.is_empty() && self.solutions >= GATHERED {
-            self.rows = rows(equations, &self.held, &self.unknowns);
-        }
-        if !self.rows.is_empty() {
-            subtract_product(&mut pushes, &self.rows, &moved, count);
-            return pushes;
-        }
-        let mut dd = vec![0.0; size];
-        let columns = pushes.chunks_exact_mut(self.held.len().max(1));
-        for (pushes, moved) in columns.zip(moved.chunks_exact(count.max(1))) {
-            for (unknown, moved) in self.unknowns.iter().zip(moved) {
-                dd[dim * unknown.pair + unknown.component] = *moved;
-            }
-            let product = equations.matrix.product(&dd);
-            pushes.iter_mut().zip(&self.held).for_each(|(push, &i)| *push -= product[i]);
-        }
-        pushes
     }
 
     /// Turns a column of unknowns into `s` times the displacements of the components that move.
@@ -253,25 +221,6 @@ impl System {
             }
         }
     }
-}
-
-/// The rows of `K` of the components that are held, each with the columns of the unknowns.
-fn rows(equations: &Equations<'_>, held: &[usize], unknowns: &[Unknown]) -> Vec<f64> {
-    let (dim, matrix) = (equations.dim, equations.matrix);
-    let at: Vec<usize> = unknowns.iter().map(|own| dim * own.pair + own.component).collect();
-    let mut rows = vec![0.0; held.len() * at.len()];
-    // A block of rows is a part for a thread.
-    let blocks = rows.chunks_mut((BLOCK * at.len()).max(1)).zip(held.chunks(BLOCK));
-    each(blocks, reading(held.len() * at.len()), |(rows, held)| {
-        for (row, &i) in rows.chunks_exact_mut(at.len()).zip(held) {
-            let column = matrix.column(i);
-            for (entry, &j) in row.iter_mut().zip(&at) {
-                // The columns of a symmetric matrix are contiguous, its rows are not.
-                *entry = if equations.symmetric { column[j] } else { matrix.at(i, j) };
-            }
-        }
-    });
-    rows
 }
 
 /// The coefficients from which a system is factorised.

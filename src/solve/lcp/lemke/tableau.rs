@@ -13,6 +13,7 @@
 use super::rank_one_updates::RankOneUpdates;
 use super::scaled::Scaled;
 use crate::error::Error;
+use crate::linalg::columns::LINE;
 use crate::linalg::simd;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
@@ -46,10 +47,6 @@ const DELAY: usize = 32;
 /// common processors.
 const LARGE: usize = 160;
 
-/// Columns begin so many entries further than a multiple of a cache line, on different cache sets even
-/// where `n` is a power of two: one line.
-const LINE: usize = 8;
-
 /// Operations that take as long as writing an entry of new memory, which the system clears page by page; reading one
 /// takes half of that.
 pub(super) const MEMORY: f64 = 100.0;
@@ -66,6 +63,7 @@ impl Tableau {
         monitor: &mut Monitor<'_>,
     ) -> Result<Result<Self, Stop>, Error> {
         let n = problem.size();
+        // Columns begin one line of the cache further, on different cache sets even where `n` is a power of two.
         let stride = n.next_multiple_of(LINE) + LINE;
         let mut entries = Vec::new();
         entries
