@@ -2,6 +2,8 @@
 
 use nalgebra::Matrix2;
 
+use super::simd::{AT_ONCE, vectorised};
+
 /// Largest eigenvalue of the symmetric matrix `[[a, b], [b, c]]`.
 pub fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
     0.5 * a + 0.5 * c + (0.5 * a - 0.5 * c).hypot(b)
@@ -27,8 +29,14 @@ pub fn norm(values: &[f64]) -> f64 {
 
 /// The first entry that is infinite or NaN.
 pub fn first_not_finite(values: &[f64]) -> Option<usize> {
-    // Without an early end, for the vectoriser: nearly always all are finite.
-    let all = values.iter().fold(true, |all, value| all & value.is_finite());
+    // Without an early end, for the vectoriser: nearly always all are finite, and zero times them is zero.
+    let (chunks, last) = values.as_chunks::<AT_ONCE>();
+    let mut zeros = [0.0; AT_ONCE];
+    vectorised(
+        #[inline(always)]
+        || chunks.iter().for_each(|values| (0..AT_ONCE).for_each(|k| zeros[k] += 0.0 * values[k])),
+    );
+    let all = zeros == [0.0; AT_ONCE] && last.iter().all(|value| value.is_finite());
     if all { None } else { values.iter().position(|value| !value.is_finite()) }
 }
 

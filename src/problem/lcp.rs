@@ -6,6 +6,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{
     dot_in_own_unit, exponent, largest_exponent, times_power_of_two,
 };
+use crate::linalg::simd::{AT_ONCE, vectorised};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
 use crate::linalg::vector::{NormSum, first_not_finite, largest_of, norm};
 
@@ -92,19 +93,15 @@ impl<'a> Lcp<'a> {
     /// Largest entry of `M` in row or column `i`, which carries `z_i` to the unit of `w_i`.
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitude = vec![0.0_f64; self.size()];
-        for j in 0..self.size() {
-            // Two plain loops, for the vectoriser; a largest entry in one lane would wait for itself.
-            let mut most = [0.0_f64; 8];
-            for chunk in self.column(j).chunks(most.len()) {
-                for (most, m) in most.iter_mut().zip(chunk) {
-                    *most = if m.abs() > *most { m.abs() } else { *most };
+        vectorised(
+            #[inline(always)]
+            || {
+                for j in 0..self.size() {
+                    let most = raise_to(&mut magnitude, self.column(j));
+                    magnitude[j] = magnitude[j].max(most);
                 }
-            }
-            for (magnitude, m) in magnitude.iter_mut().zip(self.column(j)) {
-                *magnitude = if m.abs() > *magnitude { m.abs() } else { *magnitude };
-            }
-            magnitude[j] = magnitude[j].max(largest_of(most));
-        }
+            },
+        );
         for magnitude in &mut magnitude {
             if *magnitude == 0.0 {
                 *magnitude = 1.0;
@@ -214,4 +211,22 @@ fn residual_and_scale((q, product): (&[f64], &[f64]), m: &[f64], z: &[f64]) -> (
     // `max` and `min` would drop a NaN.
     let scale = if inner.is_nan() { inner } else { load.max(inner) };
     (residual.root(), scale)
+}
+
+/// Raises numbers to the sizes of others, of which the largest is returned; to be called inside [`vectorised`].
+#[inline(always)]
+fn raise_to(numbers: &mut [f64], others: &[f64]) -> f64 {
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    // Two plain loops, for the vectoriser; a largest entry in one lane would wait for itself.
+    let mut most = [0.0_f64; AT_ONCE];
+    let (chunks, last) = others.as_chunks::<AT_ONCE>();
+    for chunk in chunks {
+        most = std::array::from_fn(|k| larger(most[k], chunk[k].abs()));
+    }
+    most[0] = last.iter().fold(most[0], |most, other| larger(most, other.abs()));
+    numbers
+        .iter_mut()
+        .zip(others)
+        .for_each(|(number, other)| *number = larger(*number, other.abs()));
+    largest_of(most)
 }
