@@ -15,7 +15,7 @@ const STEPS: usize = 40;
 const LAST: f64 = 1e-15;
 
 /// Powers of a local coordinate.
-const POWERS: usize = 3;
+pub(super) const POWERS: usize = 3;
 
 /// `Σ c_ij s^i t^j`.
 type Polynomial = [[f64; POWERS]; POWERS];

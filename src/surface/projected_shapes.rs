@@ -8,6 +8,7 @@
 
 use std::ops::Range;
 
+use super::curved::POWERS;
 use super::overlap::{Meeting, Part};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::simd::vectorised;
@@ -78,6 +79,8 @@ pub(super) struct Polynomials {
     at_points: Vec<f64>,
     /// `at_points` times the weights of the points.
     weighted: Vec<f64>,
+    /// Powers 0 to 2 of each local coordinate at the points.
+    powers: [[Vec<f64>; POWERS]; 2],
     /// The one that is made, at the points, and times the weights of these.
     next: Vec<f64>,
     next_weighted: Vec<f64>,
@@ -132,17 +135,26 @@ impl Polynomials {
         self.weighted.clear();
         self.weights.clear();
         self.weights.extend(points.iter().map(|point| point.weight));
-        let [s, t] = centre_and_scale(points);
-        for [i, j] in kind.exponents() {
-            let monomial = |at: Local| {
-                // Without the mean of the squares of -1 to 1 a square is orthogonal to what is constant there.
-                let power = |x: f64, exponent: i32| [1.0, x, x * x - 1.0 / 3.0][exponent as usize];
-                power((at[0] - s.0) / s.1, *i) * power((at[1] - t.0) / t.1, *j)
-            };
+        let scales = centre_and_scale(points);
+        let scaled = |at: Local, c: usize| (at[c] - scales[c].0) / scales[c].1;
+        // Without the mean of the squares of -1 to 1 a square is orthogonal to what is constant there.
+        let square = |x: f64| x * x - 1.0 / 3.0;
+        for (c, [constant, first, second]) in self.powers.iter_mut().enumerate() {
+            [&mut *constant, first, second].into_iter().for_each(Vec::clear);
+            constant.resize(points.len(), 1.0);
+            first.extend(points.iter().map(|point| scaled(point.slave, c)));
+            second.extend(first.iter().map(|&x| square(x)));
+        }
+        for exponents in kind.exponents() {
+            let [i, j] = exponents.map(|exponent| exponent as usize);
+            let [along, across] = [&self.powers[0][i], &self.powers[1][j]];
             self.next.clear();
-            self.next.extend(points.iter().map(|point| monomial(point.slave)));
+            self.next.extend(along.iter().zip(across).map(|(s, t)| s * t));
+            let power = |x: f64, exponent: usize| [1.0, x, square(x)][exponent];
             let mut at_nodes = [0.0; MOST_NODES];
-            at_nodes.iter_mut().zip(kind.places()).for_each(|(p, &place)| *p = monomial(place));
+            for (p, &place) in at_nodes.iter_mut().zip(kind.places()) {
+                *p = power(scaled(place, 0), i) * power(scaled(place, 1), j);
+            }
             self.add(at_nodes);
         }
     }

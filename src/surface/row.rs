@@ -60,7 +60,9 @@ pub(super) fn add_face(
 ) {
     let [areas, whole] = integrals.map(|integrals| basis.functions(integrals));
     let control = |(node, values)| (node, basis.control_values(values));
-    let masters: Vec<(usize, Values)> = masters.map(control).collect();
+    let mut masters: Vec<(usize, Values)> = masters.map(control).collect();
+    // Rows are made of runs that ascend, which are merged in little time.
+    masters.sort_unstable_by_key(|(node, _)| *node);
     let own = nodes.iter().copied().zip(unit_values()).map(control);
     let own: Vec<(usize, Values)> = own.collect();
     let gaps = basis.control_values(gaps);
@@ -88,7 +90,7 @@ fn unit_values() -> impl Iterator<Item = Values> {
 
 /// Sums the weights of each node and divides them.
 pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
-    weights.sort_unstable_by_key(|(node, _)| *node);
+    weights.sort_by_key(|(node, _)| *node);
     weights.dedup_by(|next, sum| {
         let is_same = next.0 == sum.0;
         sum.1 += if is_same { next.1 } else { 0.0 };
