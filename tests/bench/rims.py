@@ -7,7 +7,8 @@ It needs gmsh (PyPI), numpy and scipy. mm, N, MPa.
 linear: two blocks of tetrahedra hang over each other by a part of an element, 36 models, of 4 and 10 nodes; the exact
 displacements are those of a pressure p (1 + 0.3 x + 0.8 y), or p. The largest errors of pressures.
 pin: a pin of 16 mm in a lug of 10 mm, clearance 0.05, pushed by its end; beside the same pin partitioned where the lug
-ends, of which the faces under the lug alone are slaves.
+ends, of which the faces under the lug alone are slaves. The lateral force besides on the same mesh whose rows are all kept:
+the difference is what folding adds.
 matching: the partitioned pin whose nodes are those of the lug, and its mirror image: the lateral force that a mesh has of its
 own, as it is not symmetric.
 """
@@ -26,6 +27,7 @@ import signorini  # noqa: E402
 PRESSURE = 7.0
 YOUNG = ((2000.0, 0.3), (500.0, 0.2))
 RADIUS, LUG, END, OUTER, CLEARANCE, PUSH = 10.0, 10.0, 16.0, 25.0, 0.05, 0.1
+MU = 0.0, 0.2
 
 
 def exact(at, young, poisson, growth):
@@ -116,8 +118,8 @@ def linear():
               f"farthest fold {worst[3]:.1f} elements", flush=True)
 
 
-def pin_in_lug(kind, size, seed, partitioned, pin_is_slave, mu):
-    """Places of the pairs along the circle and the axis, pressures, the force and the pairs."""
+def pin_in_lug(kind, size, seed, partitioned):
+    """The two bodies."""
     def pin(shapes):
         if kind == "hex20":
             # Where it is not partitioned no layer ends with the lug.
@@ -135,11 +137,12 @@ def pin_in_lug(kind, size, seed, partitioned, pin_is_slave, mu):
         discs = [[(2, shapes.addDisk(0, 0, 0, radius, radius))] for radius in (OUTER, RADIUS)]
         ring, _ = shapes.cut(*discs)
         shapes.extrude(ring, 0, 0, LUG, numElements=[4] if kind == "hex20" else [], recombine=kind == "hex20")
-    bodies = [solid(kind, size, seed, pin), solid(kind, size, seed + 1, lug)]
-    return pressed(kind, bodies, partitioned, pin_is_slave, mu)
+    return [solid(kind, size, seed, pin), solid(kind, size, seed + 1, lug)]
 
 
-def pressed(kind, bodies, partitioned, pin_is_slave, mu):
+def pressed(kind, bodies, partitioned, pin_is_slave, rims="fold"):
+    """Places of the pairs along the circle and the axis, the pairs, and for each of MU pressures and the force across over
+    that along."""
     at, K, first, faces = two(kind, bodies, ((210e3, 0.3), (70e3, 0.33)))
     radius = np.hypot(at[:, 0], at[:, 1])
     touching = (abs(radius - RADIUS) < 1e-3) & (at[:, 2] < (LUG if partitioned else END) + 1e-6)
@@ -150,29 +153,37 @@ def pressed(kind, bodies, partitioned, pin_is_slave, mu):
     fixed = np.concatenate([3 * bottom + 2, 3 * held, 3 * held + 1, 3 * end, 3 * end + 1])
     moved = np.repeat([0.0, -PUSH], [len(fixed) - len(end), len(end)])
     pairs = signorini.pair_surfaces(at, *(faces if pin_is_slave else faces[::-1]), clearance=CLEARANCE,
-                                    symmetry=[(2, 0.0)])
+                                    symmetry=[(2, 0.0)], rims=rims)
     model = signorini.Model.from_surfaces((K.data, K.indices, K.indptr), pairs, fixed=fixed)
-    result = model.solve(np.zeros(3 * len(at)), gap=pairs.gaps, mu=mu, prescribed=moved)
+    results = [model.solve(np.zeros(3 * len(at)), gap=pairs.gaps, mu=mu, prescribed=moved) for mu in MU]
     x, y, z = at[pairs.nodes].T
-    return (RADIUS * np.arctan2(x, -y), z), -result.F[:, 0] / pairs.areas, pairs.resultant(result).force, pairs
+    forces = [pairs.resultant(result).force for result in results]
+    found = [(-result.F[:, 0] / pairs.areas, force[0] / force[1]) for result, force in zip(results, forces)]
+    return (RADIUS * np.arctan2(x, -y), z), pairs, found
 
 
 def pin():
-    for kind, size, seeds in (("tet10", 2.8, (1, 2, 3)), ("tet10", 2.2, (1, 2, 3)), ("hex20", 3.0, (1,))):
-        for pin_is_slave, mu, seed in [(side, mu, seed) for side in (True, False) for mu in (0.0, 0.2) for seed in seeds]:
-            place, pressure, force, pairs = pin_in_lug(kind, size, seed, False, pin_is_slave, mu)
-            there, other, beside, _ = pin_in_lug(kind, size, seed, True, pin_is_slave, mu)
+    meshes = [("tet10", size, seed, (True, False)) for size in (2.8, 2.2) for seed in (1, 2, 3)]
+    meshes += [("hex20", 3.0, 1, (True, False))] + [("tet10", size, 1, (True,)) for size in (2.6, 2.5, 2.4, 2.3, 2.1, 2.0, 1.8)]
+    for *mesh, sides in meshes:
+        kind, size, seed = mesh
+        bodies, parts = (pin_in_lug(*mesh, partitioned) for partitioned in (False, True))
+        for pin_is_slave in sides:
+            place, pairs, found = pressed(kind, bodies, False, pin_is_slave)
+            kept = pressed(kind, bodies, False, pin_is_slave, "keep")[2] if len(pairs.folded) else found
+            there, _, others = pressed(kind, parts, True, pin_is_slave)
             turn = 2 * np.pi * RADIUS
             around = np.concatenate([there[0] - turn, there[0], there[0] + turn]), np.tile(there[1], 3)
-            expected = griddata(around, np.tile(other, 3), place)
-            nearest = griddata(around, np.tile(other, 3), place, method="nearest")
             rim = place[1] > LUG - size
-            off = (pressure - np.where(np.isnan(expected), nearest, expected))[rim] / other.max()
-            print(f"{kind} {size}, seed {seed}, {'pin' if pin_is_slave else 'lug'} slave, mu {mu}: "
-                  f"{pairs.pairs} pairs, {len(pairs.folded)} folded; largest pressure {pressure.max():.0f}, "
-                  f"partitioned {other.max():.0f}, ratio {pressure.max() / other.max():.2f}; rim rms "
-                  f"{np.sqrt(np.mean(off ** 2)):.1%}; across {abs(force[0] / force[1]):.1e}, "
-                  f"partitioned {abs(beside[0] / beside[1]):.1e}", flush=True)
+            for mu, (pressure, across), (_, all_rows), (other, beside) in zip(MU, found, kept, others):
+                expected = griddata(around, np.tile(other, 3), place)
+                nearest = griddata(around, np.tile(other, 3), place, method="nearest")
+                off = (pressure - np.where(np.isnan(expected), nearest, expected))[rim] / other.max()
+                print(f"{kind} {size}, seed {seed}, {'pin' if pin_is_slave else 'lug'} slave, mu {mu}: "
+                      f"{pairs.pairs} pairs, {len(pairs.folded)} folded; largest pressure {pressure.max():.0f}, "
+                      f"partitioned {other.max():.0f}, ratio {pressure.max() / other.max():.2f}; rim rms "
+                      f"{np.sqrt(np.mean(off ** 2)):.1%}; across {across:.1e}, all rows kept {all_rows:.1e}, by folds "
+                      f"{abs(across - all_rows):.1e}, partitioned {beside:.1e}", flush=True)
 
 
 def matching():
@@ -189,9 +200,8 @@ def matching():
             bodies.append((at[used], body.reshape(-1, 10)))
             # The image of an element has its first two corners changed.
             mirrored.append((at[used] * [-1, 1, 1], bodies[-1][1][:, [1, 0, 2, 3, 4, 6, 5, 9, 8, 7]]))
-        across = [pressed("tet10", both, True, True, 0.0)[2] for both in (bodies, mirrored)]
-        print(f"matching tet10 {size}, seed {seed}: across {across[0][0] / across[0][1]:.5e}, mirrored "
-              f"{across[1][0] / across[1][1]:.5e}", flush=True)
+        across = [pressed("tet10", both, True, True)[2][0][1] for both in (bodies, mirrored)]
+        print(f"matching tet10 {size}, seed {seed}: across {across[0]:.5e}, mirrored {across[1]:.5e}", flush=True)
 
 
 if __name__ == "__main__":
