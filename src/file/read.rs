@@ -125,10 +125,6 @@ impl Comments {
 /// Columns of an LCP besides the matrix: `q` and, if given, the covering vector.
 const LCP_COLUMNS: RangeInclusive<usize> = 1..=2;
 
-/// Columns of a contact problem besides the matrix and the parameters of its law: loads, gaps and
-/// reference slips.
-const CONTACT_COLUMNS: usize = 3;
-
 /// The problem of the comment lines and the size line, still without its arrays; and whether a covering vector
 /// follows.
 fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
@@ -158,7 +154,8 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
             return Err(lines.refuse(&what));
         }
         Kind::Contact(law) => {
-            let wanted = CONTACT_COLUMNS + law.parameters().len();
+            // Loads, gaps and reference slips, and the parameters of the law.
+            let wanted = 3 + law.parameters().len();
             if dim.checked_mul(pairs) != Some(size) || more != Some(wanted) {
                 let what = format!(
                     "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \

@@ -10,7 +10,7 @@
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::columns::Columns;
 use super::factor::{Factor, cholesky};
-use super::matrix::{TILE, tiles};
+use super::matrix::tiles;
 use super::tolerances::{FEW_OPERATIONS, SINGULAR};
 use super::vector::{norm, norm_inf};
 use super::watched::{GoesOn, filled};
@@ -68,7 +68,7 @@ impl Definite {
 fn lower_symmetric_part(matrix: &mut Columns) -> Vec<f64> {
     let n = matrix.nrows();
     let mut sums = vec![0.0; n];
-    for (columns, rows) in tiles(n, TILE) {
+    for (columns, rows) in tiles(n) {
         for j in columns {
             for i in rows.start.max(j)..rows.end {
                 let (below, above) = (matrix[(i, j)], matrix[(j, i)]);

@@ -9,7 +9,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-use super::matrix::{TILE, tiles};
+use super::matrix::tiles;
 use super::small_products::SMALL_PRODUCT;
 use super::vector::dot;
 use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns};
@@ -165,7 +165,7 @@ pub fn subtract_coupling(
 
 /// Copies the lower triangle to the upper one.
 pub fn mirror(matrix: &mut [f64], size: usize) {
-    for (columns, rows) in tiles(size, TILE) {
+    for (columns, rows) in tiles(size) {
         for j in columns {
             for i in rows.start.max(j + 1)..rows.end {
                 matrix[j + size * i] = matrix[i + size * j];

@@ -5,10 +5,8 @@ use std::ops::Range;
 use super::simd::{AT_ONCE, add_columns, add_sizes, add_twice, vectorised};
 use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::largest_of;
+use super::watched::BLOCK;
 use crate::workers::{pieces, reading};
-
-/// Rows and columns of a square tile: what stands across its diagonal is read from cache.
-pub const TILE: usize = 64;
 
 /// A square matrix, column-major, in the caller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -219,7 +217,7 @@ impl<'a> Matrix<'a> {
         &self,
         visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
     ) -> Result<(), E> {
-        for (columns, rows) in tiles(self.size, TILE) {
+        for (columns, rows) in tiles(self.size) {
             for j in columns {
                 for i in rows.start.max(j + 1)..rows.end {
                     visit(i, j, self.column(j)[i], self.column(i)[j])?;
@@ -230,10 +228,11 @@ impl<'a> Matrix<'a> {
     }
 }
 
-/// Columns and rows of the tiles of so many rows and columns, on and below the diagonal of a square matrix.
-pub fn tiles(size: usize, tile: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-    let from = move |first: usize| (first..size).step_by(tile);
-    let range = move |first: usize| first..size.min(first + tile);
+/// Columns and rows of square tiles, on and below the diagonal of a square matrix: what stands across the diagonal of one is
+/// read from cache.
+pub fn tiles(size: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+    let from = move |first: usize| (first..size).step_by(BLOCK);
+    let range = move |first: usize| first..size.min(first + BLOCK);
     from(0).flat_map(move |column| from(column).map(move |row| (range(column), range(row))))
 }
 

@@ -4,8 +4,9 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::matrix::{Matrix, TILE};
+use super::matrix::Matrix;
 use super::simd::vectorised;
+use super::watched::BLOCK;
 use crate::workers::{each, reading};
 
 /// Rows and columns of a square block that is compared with the one across the diagonal at once: a vector of doubles.
@@ -22,14 +23,14 @@ impl Matrix<'_> {
         let whole = self.size() - self.size() % SIDE;
         let differ = AtomicBool::new(false);
         let compare = |first: usize| {
-            let columns = first..whole.min(first + TILE);
+            let columns = first..whole.min(first + BLOCK);
             let agree = vectorised(
                 #[inline(always)]
                 || self.blocks_agree(columns, whole, (root, apart, most)),
             );
             differ.fetch_or(!agree, Ordering::Relaxed);
         };
-        each((0..whole).step_by(TILE), reading(whole * whole), compare);
+        each((0..whole).step_by(BLOCK), reading(whole * whole), compare);
         !differ.into_inner() && self.others_agree(root, apart, most)
     }
 
@@ -43,15 +44,16 @@ impl Matrix<'_> {
         (root, apart, most): (&[f64], f64, f64),
     ) -> bool {
         let is_copied = self.size() > IN_CACHE;
-        let mut copies = vec![0.0; if is_copied { 2 * TILE * TILE } else { 0 }];
-        for first in (columns.start..end).step_by(TILE) {
-            let tile = first..end.min(first + TILE);
+        let mut copies = vec![0.0; if is_copied { 2 * BLOCK * BLOCK } else { 0 }];
+        for first in (columns.start..end).step_by(BLOCK) {
+            let tile = first..end.min(first + BLOCK);
             let (mut lower, mut upper, mut row, mut column) = (*self, *self, 0, 0);
             if is_copied {
-                let (below, above) = copies.split_at_mut(TILE * TILE);
+                let (below, above) = copies.split_at_mut(BLOCK * BLOCK);
                 self.copy(&tile, &columns, below);
                 self.copy(&columns, &tile, above);
-                (lower, upper) = (Matrix::new(TILE, below, TILE), Matrix::new(TILE, above, TILE));
+                (lower, upper) =
+                    (Matrix::new(BLOCK, below, BLOCK), Matrix::new(BLOCK, above, BLOCK));
                 (row, column) = (first, columns.start);
             }
             for j in columns.clone().step_by(SIDE) {
@@ -90,7 +92,7 @@ impl Matrix<'_> {
     /// Copies the entries of some rows and columns to a tile.
     #[inline(always)]
     fn copy(&self, rows: &Range<usize>, columns: &Range<usize>, tile: &mut [f64]) {
-        for (tile, j) in tile.chunks_exact_mut(TILE).zip(columns.clone()) {
+        for (tile, j) in tile.chunks_exact_mut(BLOCK).zip(columns.clone()) {
             tile[..rows.len()].copy_from_slice(&self.column(j)[rows.clone()]);
         }
     }

@@ -12,7 +12,7 @@ pub const BLOCK: usize = 64;
 pub const SIDE: usize = 256;
 
 /// Additions and multiplications between two questions: some ten milliseconds.
-const WORK: usize = 1 << 28;
+pub const WORK: usize = 1 << 28;
 
 /// Columns of a block where each takes so many additions and multiplications.
 pub fn block(work: usize) -> usize {

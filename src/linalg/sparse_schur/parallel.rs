@@ -9,11 +9,9 @@ use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::graph::filled;
 use super::structure::{PANEL, Structure};
 use crate::linalg::dense;
+use crate::linalg::watched::WORK;
 pub use crate::workers::locked;
 use crate::workers::{share, threads};
-
-/// Multiplications between two questions whether to go on: some milliseconds.
-const BETWEEN: f64 = 3e8;
 
 /// Rows of a block: products of it are fast, and its changes stay in the cache.
 pub const ROWS: usize = 512;
@@ -68,7 +66,7 @@ impl<'w> Parallel<'w> {
         let mut answer = Ok(());
         let mut go_on = || {
             let so_far = done.0.load(Ordering::Relaxed) as f64;
-            if so_far - *asked >= BETWEEN {
+            if so_far - *asked >= WORK as f64 {
                 *asked = so_far;
                 answer = progress(FactorStep::HasDone((so_far / *all).min(1.0)));
             }
