@@ -1,10 +1,11 @@
 //! The bounds that the law states for its natural map: on its rounding, and on its change with the force. They hold,
 //! and they are close.
 
+use crate::common::quad::Quad;
 use crate::laws::{Axes, Numbers, direction, norm, uniform};
 use fastrand::Rng;
 use signorini::file::Law;
-use signorini::law::{PairLaw, Rule};
+use signorini::law::{Bound, PairLaw, Rule};
 
 const POINTS: usize = 3000;
 
@@ -122,4 +123,33 @@ fn a_flat_ellipse_turns_its_friction_by_its_norm() {
     // A change by 1e-5 of the length along the short axis, and rounding of 1 over it.
     assert!((change / expected - 1.0).abs() <= 1e-3, "{change:e}");
     assert!(change <= law.sensitivity(), "{change:e} > {:e}", law.sensitivity());
+}
+
+/// An ellipse turns the trial force into its axes, where a flat one multiplies the rounding: the bound holds against the friction
+/// `g y / |W y|` in twice the precision, near the long axis, where `|W y|` is a sum of cancelled terms. All but the axes'
+/// direction are powers of two.
+#[test]
+fn the_rounding_of_a_flat_ellipse_is_bounded() {
+    let (rng, flat) = (&mut Rng::with_seed(4), 2_f64.powi(-14));
+    let mut beyond = [0; 2];
+    for seed in 0..POINTS {
+        let [g, angle] = [[2_f64.powi(20), 2_f64.powi(-20)][seed % 2], uniform(rng, -4.0, 4.0)];
+        let axes = Axes { mu: [1.0, flat], angle, rule: Rule::Collinear };
+        let bound = Bound::tresca(g);
+        let law = Numbers { axes: Some(axes), bound, ..Numbers::of(3, (Law::Tresca, &[g])) }.law();
+        let along = [g * uniform(rng, 0.5, 2.0), flat * g * uniform(rng, 1.0, 2.0)];
+        let [y1, y2] = axes.of(along);
+        let found = residual(&law, 3, &[0.0, y1, y2], &[0.0; 3]);
+        let (sin, cos) = angle.sin_cos();
+        let first = Quad::product(cos, y1) + Quad::product(sin, y2);
+        let second = (Quad::product(cos, y2) - Quad::product(sin, y1)).scaled(1.0 / flat);
+        let size = (first * first + second * second).sqrt();
+        let off = |c: usize, y: f64| Quad::product(g, y) / size - Quad::from(found[c]);
+        let off = norm(&[off(1, y1).value(), off(2, y2).value()]);
+        let bound = law.natural_rounding(&[0.0, y1, y2], &[0.0; 3]);
+        assert!(off <= bound, "{angle}, {along:?}: {off:e} > {bound:e}");
+        // Roundings of the bound alone are fewer.
+        beyond[seed % 2] += usize::from(off > 16.0 * f64::EPSILON * g);
+    }
+    assert!(beyond.iter().all(|&count| count > POINTS / 20), "{beyond:?}");
 }
