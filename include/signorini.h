@@ -600,16 +600,17 @@ struct signorini_settings {
     /** Nonzero: signorini_model_new_sparse always makes a model in full space; default 0. */
     int32_t full_space;
     /**
-     * Most threads of a call; default 1; 0 stands for 1. They end before the call does, and get no
-     * signals. If the system refuses memory to a thread that begins, the process may end.
+     * Most threads of a call, at most one a processor; default 1; 0 stands for 1. They end before
+     * the call does, and get no signals. If the system refuses memory to a thread that begins, the
+     * process may end.
      *
      * signorini_model_solve, several cases: each thread solves a part of them, and takes
      * signorini_model_data.memory, to which memory_limit applies. The same number gives the same
      * bits.
      *
-     * One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 threads share
-     * factorisations and products, also those of sweeps, that are large. Any number gives the same
-     * bits. In those of a sparse matrix each takes 8 bytes for each unknown and up to 1 MB.
+     * One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 share large
+     * factorisations and products, also of sweeps. Any number gives the same bits. In those of a
+     * sparse matrix each takes 8 bytes an unknown and up to 1 MB.
      */
     int32_t threads;
 };

@@ -47,6 +47,25 @@ impl Job {
     }
 }
 
+/// Processors that the calling thread may run on. The standard library reads files for it on Linux.
+#[cfg(target_os = "linux")]
+pub(super) fn processors() -> usize {
+    // SAFETY: a set of processors, which is written to its place.
+    let count = unsafe {
+        let mut set: libc::cpu_set_t = std::mem::zeroed();
+        libc::sched_getaffinity(0, size_of_val(&set), &raw mut set);
+        libc::CPU_COUNT(&set)
+    };
+    // 0: the system has more processors than a set.
+    usize::try_from(count).ok().filter(|count| *count > 0).unwrap_or(usize::MAX)
+}
+
+/// Processors that the process may run on.
+#[cfg(not(target_os = "linux"))]
+pub(super) fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// A thread that runs, and that must be joined.
 pub(super) struct Thread(own::Handle);
 

@@ -8,19 +8,20 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::system_thread::{Job, Thread};
+use super::system_thread::{Job, Thread, processors};
 use crate::shortage::{self, Shortage};
 use crate::workers::{Workers, with_workers};
 
 /// Most threads: each has working memory, and of more than these none has enough to do.
 const MOST: usize = 64;
 
-/// Does `body` with so many threads, the calling one among them. Each further one holds `memory` bytes in reserve.
+/// Does `body` with so many threads, the calling one among them, at most one for each processor: more of them wait for
+/// each other. Each further one holds `memory` bytes in reserve.
 pub(in crate::ffi) fn with_threads<T>(threads: usize, memory: u64, body: impl FnOnce() -> T) -> T {
-    if threads <= 1 {
+    let threads = if threads > 1 { threads.min(MOST).min(processors()) } else { 1 };
+    if threads == 1 {
         return with_workers(None, body);
     }
-    let threads = threads.min(MOST);
     let board = Arc::new(Board::new(threads));
     let job = |number| {
         let board = Arc::clone(&board);
@@ -81,6 +82,9 @@ struct Notes {
     present: usize,
     /// Those that have not ended this work.
     busy: usize,
+    /// Threads that sleep until there is another work, and if the calling one does until this one has ended.
+    asleep: usize,
+    is_awaited: bool,
     is_over: bool,
     failure: Option<Collapse>,
 }
@@ -125,8 +129,10 @@ impl Board {
         let mut seen = 0;
         loop {
             look_for(|| self.count.load(Ordering::Relaxed) != seen);
-            let notes = self.notes();
-            let notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
+            let mut notes = self.notes();
+            notes.asleep += 1;
+            let mut notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
+            notes.asleep -= 1;
             let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
                 return;
             };
@@ -148,7 +154,9 @@ impl Board {
             }
             notes.busy -= 1;
             self.busy.store(notes.busy, Ordering::Relaxed);
-            if notes.busy == 0 {
+            let wakes = notes.busy == 0 && notes.is_awaited;
+            drop(notes);
+            if wakes {
                 self.ended.notify_one();
             }
         }
@@ -213,14 +221,19 @@ impl Workers for WorkerPool {
         notes.busy = notes.present;
         board.busy.store(notes.busy, Ordering::Relaxed);
         board.count.store(notes.count, Ordering::Relaxed);
+        let wakes = notes.asleep > 0;
         drop(notes);
-        board.posted.notify_all();
+        if wakes {
+            board.posted.notify_all();
+        }
         let own =
             catch_unwind(AssertUnwindSafe(|| board.share(parts, &|part| work(0, part), go_on)));
         board.next.store(parts, Ordering::Relaxed);
         look_for(|| board.busy.load(Ordering::Relaxed) == 0);
-        let notes = board.notes();
+        let mut notes = board.notes();
+        notes.is_awaited = true;
         let mut notes = board.wait(&board.ended, notes, |now| now.busy > 0);
+        notes.is_awaited = false;
         notes.work = None;
         let failure = notes.failure.take();
         drop(notes);
@@ -243,6 +256,45 @@ impl Drop for WorkerPool {
         self.board.posted.notify_all();
         for thread in self.started.get_mut().drain(..) {
             thread.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Barrier;
+
+    use super::*;
+    use crate::ffi::guard;
+    use crate::ffi::status::SIGNORINI_STATUS_INTERNAL;
+    use crate::workers::{share, threads};
+
+    /// A panic of the last thread, beside others that are at parts of their own, ends the call as one of the calling thread
+    /// does: the works of the next call have all of their parts done.
+    #[test]
+    fn a_panic_on_a_further_thread_ends_the_call_alone() {
+        let call = |fails: bool| {
+            guard::call(|| {
+                with_threads(4, 0, || {
+                    let (last, done) = (threads() - 1, AtomicUsize::new(0));
+                    let meeting = Barrier::new(last + 1);
+                    for _ in 0..3 {
+                        let part = |thread: usize, _: usize| {
+                            // Each thread comes here once, as none goes on alone.
+                            meeting.wait();
+                            assert!(thread < last || !fails, "a part fails");
+                            done.fetch_add(1, Ordering::Relaxed);
+                        };
+                        share(last + 1, f64::INFINITY, &part, &mut || true);
+                    }
+                    assert_eq!(done.into_inner(), 3 * (last + 1));
+                    Ok(0)
+                })
+            })
+        };
+        for _ in 0..20 {
+            assert_eq!(call(true), SIGNORINI_STATUS_INTERNAL);
+            assert_eq!(call(false), 0);
         }
     }
 }
