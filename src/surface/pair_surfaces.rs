@@ -70,7 +70,7 @@ pub(super) fn pair_sides(
         }
     };
     let mut found = unit.of_host(found?, settings)?;
-    found.report.overlapping_and_rough = facets::overlapping_and_rough(&slave, &found);
+    found.report.overlapping_and_rough = facets::overlapping_and_rough(&slave, &found, watch)?;
     Ok(found)
 }
 
