@@ -75,7 +75,7 @@ pub(super) fn pairs<'a>(
     }
     let Search { candidates, shapes, .. } = search;
     candidates.look_beyond([slave, master], dim, &mut report, watch)?;
-    let mut rows = rows(slave, &faces, planes, (&mut report.slave_area, watch))?;
+    let mut rows = rows(slave, faces, planes, (&mut report, watch))?;
     if normals == Normals::Averaged {
         let averaged = slave.node_normals_on(planes, watch)?;
         rows.iter_mut().for_each(|(node, row)| row.normal = row.area * averaged[node]);
@@ -191,39 +191,39 @@ fn keep_nearest(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, layer:
     });
 }
 
-/// The rows of all nodes with cover, by node. The areas of all faces are added to `slave_area`.
+/// The rows of all nodes with cover, by node. The areas of all faces are added to those of the report.
 fn rows(
     slave: &Side<'_>,
-    faces: &[Option<CoveredFace>],
+    faces: Vec<Option<CoveredFace>>,
     planes: &OnPlanes,
-    (slave_area, watch): (&mut f64, &mut Watch<'_, '_>),
+    (report, watch): (&mut SurfaceReport, &mut Watch<'_, '_>),
 ) -> Result<BTreeMap<usize, Row>, Error> {
-    let wholly = |at: usize, face: &Face<'_>| match &faces[at] {
-        Some(covered) => covered.wholly,
-        None => !planes.touch_axis(face),
-    };
     let mut edges = Edges::default();
-    for at in 0..slave.count() {
+    for (at, covered) in faces.iter().enumerate() {
         watch.goes_on()?;
         let face = slave.face(at);
-        edges.add(face.kind, face.nodes, wholly(at, &face));
+        let wholly = covered.as_ref().map(|covered| covered.wholly);
+        let wholly = wholly.unwrap_or_else(|| !planes.touch_axis(&face));
+        edges.add(face.kind, face.nodes, wholly);
     }
+    let slave_area = &mut report.slave_area;
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for (at, covered) in faces.iter().enumerate() {
+    // The memory of a face is given back once its rows have it.
+    for (at, covered) in faces.into_iter().enumerate() {
         watch.goes_on()?;
         if let Some(CoveredFace { covered, wholly }) = covered {
             let face = slave.face(at);
-            let basis = edges.basis(face.kind, face.nodes, *wholly);
+            let basis = edges.basis(face.kind, face.nodes, wholly);
             let integrals = [covered.integrals, face.integrals()];
             *slave_area += integrals[1].iter().sum::<f64>();
             let on = (face.nodes, &basis);
             add_face(&mut rows, on, integrals, covered.weights(), (&at_nodes(&face), covered.gaps));
         }
     }
-    for (at, _) in faces.iter().enumerate().filter(|(_, covered)| covered.is_none()) {
+    for &at in &report.uncovered_faces {
         watch.goes_on()?;
         let face = slave.face(at);
-        let basis = edges.basis(face.kind, face.nodes, wholly(at, &face));
+        let basis = edges.basis(face.kind, face.nodes, !planes.touch_axis(&face));
         let (integrals, normal) = (face.integrals(), middle_normal(&face));
         *slave_area += integrals.iter().sum::<f64>();
         let whole = basis.functions(integrals);
