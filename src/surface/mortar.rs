@@ -99,7 +99,10 @@ pub(super) fn pairs<'a>(
     watch.goes_on()?;
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let has_pair = |node: &usize| pairs.binary_search_by_key(node, |pair| pair.slave).is_ok();
-    let unpaired = slave.all_nodes().into_iter().filter(|node| !has_pair(node)).collect();
+    let nodes = slave.all_nodes();
+    watch.goes_on()?;
+    let unpaired = nodes.into_iter().filter(|node| !has_pair(node)).collect();
+    watch.goes_on()?;
     Ok(SurfacePairs { dim, pairs, unpaired, report, ..SurfacePairs::default() })
 }
 
