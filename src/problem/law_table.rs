@@ -128,8 +128,9 @@ pub(crate) const FLATTEST: f64 = 1e6;
 fn cohesion(numbers: &[f64]) -> Option<(usize, String)> {
     let &[mu, b, a] = numbers else { return None };
     let least = mu * a;
-    // The host has rounded a product.
-    (b < least * (1.0 - FEW_OPERATIONS)).then(|| {
+    // The host has rounded a product: half of what ten operations leave.
+    let rounding = least * (FEW_OPERATIONS / 2.0);
+    (b < least - rounding).then(|| {
         let what = format!(
             " is {b}, it must be at least mu a = {mu} * {a} = {least}: friction would be negative under \
              the tension a"
