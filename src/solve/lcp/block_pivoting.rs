@@ -20,7 +20,7 @@ use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
 
 /// Sweeps between a solution and its active set: they cost a small part of the system that they may save.
-const SWEEPS: u32 = 6;
+const SWEEPS: u32 = 2;
 
 /// Systems after which a problem of `n` complementary variables is left to another method: single
 /// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems

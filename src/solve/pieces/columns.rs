@@ -8,6 +8,10 @@ const KEPT: f64 = 0.25;
 
 /// The columns that are known.
 pub struct Columns {
+    /// Entries of a column.
+    length: usize,
+    /// The components whose columns are known, in their order.
+    components: Vec<usize>,
     /// Where the column of each component is.
     place: Vec<Option<usize>>,
     /// The columns, contiguous.
@@ -15,15 +19,31 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// None yet, of so many components.
-    pub fn none(components: usize) -> Self {
-        Columns { place: vec![None; components], values: Vec::new() }
+    /// None yet, of so many components, each column of so many entries.
+    pub fn none(components: usize, length: usize) -> Self {
+        let place = vec![None; components];
+        Columns { length, components: Vec::new(), place, values: Vec::new() }
+    }
+
+    /// The components whose columns are known, in the order of [`Self::values`].
+    pub fn components(&self) -> &[usize] {
+        &self.components
+    }
+
+    /// The known columns, contiguous.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Where the column of a component is among those that are known.
+    pub fn place(&self, component: usize) -> Option<usize> {
+        self.place[component]
     }
 
     /// The column of a component.
     pub fn of(&self, component: usize) -> Option<&[f64]> {
-        let size = self.place.len();
-        self.place[component].map(|place| &self.values[size * place..size * (place + 1)])
+        let length = self.length;
+        self.place[component].map(|place| &self.values[length * place..length * (place + 1)])
     }
 
     /// The components of these parts whose columns are not known, each once.
@@ -36,10 +56,11 @@ impl Columns {
 
     /// Forgets all columns if there is no room for so many more; true if none was forgotten.
     pub fn make_room(&mut self, more: usize) -> bool {
-        let known = self.values.len() / self.place.len().max(1);
+        let known = self.components.len();
         let has_room = known == 0 || (known + more) as f64 <= KEPT * self.place.len() as f64;
         if !has_room {
             self.place.fill(None);
+            self.components.clear();
             self.values.clear();
         }
         has_room
@@ -47,11 +68,9 @@ impl Columns {
 
     /// Takes in the columns of `components`.
     pub fn add(&mut self, components: &[usize], columns: &[f64]) {
-        for (&component, column) in
-            components.iter().zip(columns.chunks_exact(self.place.len().max(1)))
-        {
-            self.place[component] = Some(self.values.len() / self.place.len());
-            self.values.extend_from_slice(column);
-        }
+        let known = self.components.len();
+        (known..).zip(components).for_each(|(place, &i)| self.place[i] = Some(place));
+        self.components.extend_from_slice(components);
+        self.values.extend_from_slice(columns);
     }
 }

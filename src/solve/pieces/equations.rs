@@ -82,6 +82,11 @@ impl<'a> Equations<'a> {
         columns
     }
 
+    /// An entry of `K / k - 1`.
+    pub fn change_entry(&self, i: usize, j: usize) -> f64 {
+        self.matrix.at(i, j) / self.root[j].powi(2) - if i == j { 1.0 } else { 0.0 }
+    }
+
     /// `K d - f`.
     pub fn force(&self, d: &[f64]) -> Vec<f64> {
         let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
@@ -98,6 +103,30 @@ impl<'a> Equations<'a> {
     pub fn linearised(&self, pieces: &[Piece], y: &[Vector]) -> Vec<Linearised> {
         let places = self.laws.iter().zip(pieces.iter().zip(y));
         places.map(|(law, (&piece, y))| law.linearised(piece, y)).collect()
+    }
+
+    /// How displacements change where the coordinates of pairs on their pieces change by `y`.
+    pub fn displaced(&self, pairs: &[Linearised], y: &[f64]) -> Vec<f64> {
+        let mut dd = Vec::with_capacity(y.len());
+        let units = self.root.chunks_exact(self.dim);
+        for ((pair, y), root) in pairs.iter().zip(by_pairs(self.dim, y)).zip(units) {
+            let moved = pair.moved(&y);
+            dd.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
+        }
+        dd
+    }
+
+    /// The change of the coordinates of pairs in the plane where displacements change by `dd`: those that do not move are
+    /// `b - K dd`.
+    pub fn with_pushes(&self, pairs: &[Linearised], b: &[f64], mut dd: Vec<f64>) -> Vec<f64> {
+        let product = self.matrix.product(&dd);
+        for (at, (pair, own)) in pairs.iter().zip(dd.chunks_exact_mut(self.dim)).enumerate() {
+            for (c, own) in own.iter_mut().enumerate().filter(|(c, _)| !pair.moves(*c)) {
+                *own = b[self.dim * at + c] - product[self.dim * at + c];
+            }
+            pair.complete(own);
+        }
+        dd
     }
 
     /// The coordinates of displacements and the force that they need.

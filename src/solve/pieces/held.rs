@@ -56,7 +56,7 @@ impl Held {
 }
 
 /// The rows of `K` of the components that are held, each with the columns `at`.
-fn rows(equations: &Equations<'_>, held: &[usize], at: Vec<usize>) -> Vec<f64> {
+pub fn rows(equations: &Equations<'_>, held: &[usize], at: Vec<usize>) -> Vec<f64> {
     let matrix = equations.matrix;
     let mut rows = vec![0.0; held.len() * at.len()];
     // A block of rows is a part for a thread.

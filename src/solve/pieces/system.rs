@@ -17,7 +17,7 @@
 //! components that are eliminated have the pivot 1.
 
 use super::equations::{Equations, by_pairs};
-use super::held::Held;
+use super::held::{self, Held};
 use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
@@ -147,11 +147,51 @@ impl System {
         Some((by_pairs(self.dim, &dy), ds))
     }
 
-    /// `J⁻¹ b` for each column of `b`, without a border.
-    pub fn solve(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
+    /// The unknowns of `J⁻¹ b` for each column of `b`, without a border.
+    pub fn unknowns(&mut self, b: &[f64]) -> Vec<f64> {
         let mut x = self.right_sides(b);
         self.factor.solve(&mut x);
+        x
+    }
+
+    /// `J⁻¹ b` for each column of `b`, without a border.
+    pub fn solve(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
+        let x = self.unknowns(b);
         self.coordinates(equations, b, &x)
+    }
+
+    /// The displacements of all components, from the unknowns.
+    pub fn displacements(&self, x: &[f64]) -> Vec<f64> {
+        let (mut moved, mut dd) = (x.to_vec(), vec![0.0; self.all]);
+        self.displace(&mut moved);
+        let places = self.unknowns.iter().map(|own| self.dim * own.pair + own.component);
+        places.zip(moved).for_each(|(i, moved)| dd[i] = moved);
+        dd
+    }
+
+    /// The coordinates of a pair, from the unknowns and the pushes of its other components.
+    pub fn own(&self, pair: usize, x: &[f64], push: impl Fn(usize) -> f64) -> Vector {
+        let mut own = [0.0; 3];
+        for (c, own) in own[..self.dim].iter_mut().enumerate() {
+            let place =
+                self.unknowns.binary_search_by_key(&(pair, c), |own| (own.pair, own.component));
+            *own = match place {
+                Ok(place) => x[place] * self.unknowns[place].column,
+                Err(_) => push(self.dim * pair + c),
+            };
+        }
+        self.pairs[pair].complete(&mut own[..self.dim]);
+        own
+    }
+
+    /// The rows of `K` of some components with the columns of the unknowns, in their units.
+    pub fn rows(&self, equations: &Equations<'_>, components: &[usize]) -> Vec<f64> {
+        let at = |own: &Unknown| self.dim * own.pair + own.component;
+        let mut rows = held::rows(equations, components, self.unknowns.iter().map(at).collect());
+        for row in rows.chunks_exact_mut(self.size().max(1)) {
+            row.iter_mut().zip(&self.unknowns).for_each(|(entry, own)| *entry *= own.column);
+        }
+        rows
     }
 
     /// True if the system is one of these equations, whose matrix it has.

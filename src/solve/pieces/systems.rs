@@ -1,10 +1,10 @@
 //! Newton's systems of one point after another. Where the law is linear on each piece, one factor serves the pieces near
 //! by.
 
+use super::amended::Amended;
 use super::before::Before;
 use super::equations::{Equations, by_pairs};
 use super::system::System;
-use super::updated::Updated;
 use crate::law::{Linearised, Vector};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::norm_inf;
@@ -32,7 +32,7 @@ struct Left {
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
     /// The last system. In space it is one of a point, and serves others near by as long as steps with it converge.
-    last: Option<Updated<'e>>,
+    last: Option<Amended<'e>>,
     /// The solution before, if the last system is what it has left.
     before: Option<Before>,
     /// Factorisations so far.
@@ -46,7 +46,7 @@ impl<'e> Systems<'e> {
         let left = left.filter(|left| left.system.fits(equations));
         let (last, before) = match left {
             Some(Left { system, solution }) => {
-                (Some(Updated::of(equations, system)), Some(solution))
+                (Some(Amended::of(equations, system)), Some(solution))
             }
             None => (None, None),
         };
@@ -94,14 +94,15 @@ impl<'e> Systems<'e> {
         let equations = self.equations;
         if self.change_work(&pairs).is_some()
             && let Some(system) = &mut self.last
-            && system.go_to(&pairs, goes_on).is_some()
+            && system.go_to(pairs.clone(), goes_on).is_some()
         {
             return Some(());
         }
         // Two factors never stand side by side.
         self.last = None;
         self.factorisations += 1;
-        self.last = Some(Updated::new(equations, pairs, SINGULAR, goes_on)?);
+        let system = System::new(equations, (pairs, 1.0), None, SINGULAR, goes_on)?;
+        self.last = Some(Amended::of(equations, system));
         Some(())
     }
 
@@ -114,10 +115,10 @@ impl<'e> Systems<'e> {
 
     /// Sign of the determinant of the last system.
     pub fn orientation(&self) -> i8 {
-        self.last.as_ref().map_or(0, Updated::sign)
+        self.last.as_ref().map_or(0, Amended::sign)
     }
 
-    /// As [`Updated::definite`] of the last system.
+    /// As [`Amended::definite`] of the last system.
     pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
         self.last.as_ref().map_or_else(Vec::new, |last| last.definite(goes_on))
     }

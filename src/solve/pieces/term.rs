@@ -26,10 +26,10 @@ pub fn terms(
 }
 
 impl Term {
-    /// `n.x`.
-    pub fn along(&self, x: &[f64]) -> f64 {
-        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * x[self.first + 1] };
-        self.n[0] * x[self.first] + second
+    /// `n.y` for the coordinates of the pair.
+    pub fn along(&self, own: &[f64]) -> f64 {
+        let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * own[1] };
+        self.n[0] * own[0] + second
     }
 
     /// The components of which `u` is made, each with its part.

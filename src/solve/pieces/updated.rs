@@ -19,7 +19,7 @@ use super::term::{Term, terms};
 use crate::law::Linearised;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
-use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
+use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
 use crate::linalg::watched::{BLOCK, GoesOn};
 
@@ -77,30 +77,10 @@ impl<'e> Updated<'e> {
         least: f64,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let base = System::new(equations, (pairs, 1.0), None, least, goes_on)?;
-        Some(Self::of(equations, base))
-    }
-
-    /// A system of these equations that is factorised already.
-    pub fn of(equations: &'e Equations<'e>, base: System) -> Self {
-        let (pairs, columns) = (base.pairs().to_vec(), Columns::none(equations.root.len()));
+        let base = System::new(equations, (pairs.clone(), 1.0), None, least, goes_on)?;
+        let columns = Columns::none(equations.root.len(), equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
-        Updated { equations, base, pairs, columns, changes, directions }
-    }
-
-    /// The system that was factorised.
-    pub fn into_base(self) -> System {
-        self.base
-    }
-
-    /// Unknowns that were factorised.
-    pub fn size(&self) -> usize {
-        self.base.size()
-    }
-
-    /// True if the system that was factorised is that of `pairs`.
-    pub fn is_of(&self, pairs: &[Linearised]) -> bool {
-        self.base.pairs() == pairs
+        Some(Updated { equations, base, pairs, columns, changes, directions })
     }
 
     /// Terms since the factorisation.
@@ -108,62 +88,9 @@ impl<'e> Updated<'e> {
         self.changes.iter().map(|made| made.terms.len()).sum()
     }
 
-    /// Operations of [`Self::go_to`]: a solution for each column that is new, and `M`. Those of a solution take twice the
-    /// time that those of a factorisation take.
-    pub fn work(&self, pairs: &[Linearised]) -> f64 {
-        let others = pairs.iter().copied().enumerate();
-        let terms = terms(self.equations.dim, self.base.pairs(), others);
-        let lacking = self.columns.lacking(terms.iter().flat_map(Term::parts)).len() as f64;
-        let (size, all) = (self.base.size() as f64, self.equations.root.len() as f64);
-        let count = terms.len() as f64;
-        4.0 * size * all * lacking + 2.0 * count * count * count
-    }
-
-    /// Goes to the system of pairs on their pieces by one change of the factorised one; `None` if it is singular, or where
-    /// `goes_on` says no.
-    pub fn go_to(&mut self, pairs: &[Linearised], goes_on: GoesOn<'_>) -> Option<()> {
-        self.changes.clear();
-        self.directions.clear();
-        self.pairs.copy_from_slice(self.base.pairs());
-        let all: Vec<(usize, Linearised)> = pairs.iter().copied().enumerate().collect();
-        let change = self.change(&all, goes_on)?;
-        self.make(change, goes_on)
-    }
-
     /// Sign of `det J`.
     pub fn sign(&self) -> i8 {
         self.changes.iter().fold(self.base.orientation(), |sign, made| sign * made.sign)
-    }
-
-    /// The variables of a symmetric complementarity problem that were basic in the factorised system, and those that are
-    /// since one change, if their block is positive definite beyond doubt; nothing otherwise, or where `goes_on` says no.
-    ///
-    /// `M` of the variables that became basic is the Schur complement of the block, in the units of its columns. Solutions
-    /// lose the digits by which the pivots of the factorised system are small: the product of both least pivots decides.
-    pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
-        let (first, none) = (self.base.least_pivot(), Vec::new());
-        if first <= SUSPICIOUS_PIVOT || self.changes.len() > 1 {
-            return none;
-        }
-        let root = &self.equations.root;
-        let terms = self.changes.iter().flat_map(|made| &made.terms);
-        let became_basic: Vec<(&Term, &[f64])> = terms
-            .zip(self.directions.chunks_exact(root.len().max(1)))
-            .filter(|(term, _)| self.pairs[term.first].moves(0))
-            .collect();
-        let fill = |j: usize, column: &mut [f64]| {
-            let (own, z) = became_basic[j];
-            for (entry, (term, _)) in column[j..].iter_mut().zip(&became_basic[j..]) {
-                *entry = term.along(z) * (root[own.first] / root[term.first]);
-            }
-            column[j] += 1.0;
-        };
-        let schur = Factor::new(became_basic.len(), true, SINGULAR, fill, goes_on);
-        if schur.is_none_or(|schur| first * schur.least_pivot() <= SUSPICIOUS_PIVOT) {
-            return none;
-        }
-        let pairs = self.base.pairs().iter().zip(&self.pairs);
-        pairs.map(|(before, now)| before.moves(0) || now.moves(0)).collect()
     }
 
     /// `J⁻¹ b`.
@@ -229,10 +156,14 @@ impl<'e> Updated<'e> {
         let mut matrix = Vec::with_capacity(terms.len() * terms.len());
         for (column, z) in z.chunks_exact(size).enumerate() {
             let one = |row: usize| if row == column { 1.0 } else { 0.0 };
-            matrix.extend(terms.iter().enumerate().map(|(row, n)| one(row) + n.along(z)));
+            matrix
+                .extend(terms.iter().enumerate().map(|(row, n)| one(row) + n.along(&z[n.first..])));
         }
         let made = || self.directions.chunks_exact(size);
-        let before = terms.iter().map(|term| made().map(|z| term.along(z)).collect()).collect();
+        let before = terms
+            .iter()
+            .map(|term| made().map(|z| term.along(&z[term.first..])).collect())
+            .collect();
         Some(Change { pairs: pairs.to_vec(), terms, z, matrix, before })
     }
 
@@ -269,14 +200,7 @@ impl<'e> Updated<'e> {
 
     /// The displacements along which the coordinates move when they move by `y`, in the plane.
     pub fn motion(&self, y: &[f64]) -> Vec<f64> {
-        let mut motion = Vec::with_capacity(y.len());
-        for ((pair, y), root) in
-            self.pairs.iter().zip(y.chunks_exact(2)).zip(self.equations.root.chunks_exact(2))
-        {
-            let moved = pair.moved(&[y[0], y[1], 0.0]);
-            motion.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
-        }
-        motion
+        self.equations.displaced(&self.pairs, y)
     }
 }
 
@@ -285,8 +209,12 @@ impl Made {
     fn add_parts(&self, x: &[f64], parts: &mut Vec<f64>) {
         let count = self.terms.len();
         let before = |row: usize| self.before.get(row).map_or(0.0, |before| dot(before, parts));
-        let along: Vec<f64> =
-            self.terms.iter().enumerate().map(|(row, term)| term.along(x) - before(row)).collect();
+        let along: Vec<f64> = self
+            .terms
+            .iter()
+            .enumerate()
+            .map(|(row, term)| term.along(&x[term.first..]) - before(row))
+            .collect();
         let begin = parts.len();
         parts.resize(begin + count, 0.0);
         subtract_columns(&mut parts[begin..], &self.inverse, &along);

@@ -10,18 +10,17 @@ use crate::workers::{columns_to_share, pieces, reading};
 /// The steps of some components, the others zero.
 type Steps = [f64; 3];
 
-/// Lets `relax(i, force)` change the `dim` components from `i` on, whose forces it is told, for all of these groups. It
+/// Lets `relax(i, force)` change the `DIM` components from `i` on, whose forces it is told, for all of these groups. It
 /// returns their steps and the square of the change in the norm of the diagonal, of which the root of the sum is returned.
 /// The symmetric `matrix` times the steps is added to `force`.
 #[inline(always)]
-pub fn over_all(
+pub fn over_all<const DIM: usize>(
     matrix: Matrix<'_>,
-    dim: usize,
     force: &mut [f64],
     mut relax: impl FnMut(usize, &[f64]) -> (Steps, f64),
 ) -> f64 {
     let size = matrix.size();
-    let length = dim * columns_to_share(size).div_ceil(dim).min(size / dim).max(1);
+    let length = DIM * columns_to_share(size).div_ceil(DIM).min(size / DIM).max(1);
     let (mut change, mut steps) = (0.0, Vec::new());
     for first in (0..size).step_by(length) {
         let block = first..size.min(first + length);
@@ -30,12 +29,12 @@ pub fn over_all(
         vectorised(
             #[inline(always)]
             || {
-                for i in (0..own.len()).step_by(dim) {
-                    let (moved, added) = relax(first + i, &own[i..i + dim]);
+                for i in (0..own.len()).step_by(DIM) {
+                    let (moved, added) = relax(first + i, &own[i..i + DIM]);
                     change += added;
-                    add_steps(|c| &matrix.column(first + i + c)[block.clone()], dim, moved, own);
+                    add_steps::<DIM>(|c| &matrix.column(first + i + c)[block.clone()], moved, own);
                     if length < size {
-                        steps.extend_from_slice(&moved[..dim]);
+                        steps.extend_from_slice(&moved[..DIM]);
                     }
                 }
             },
@@ -55,8 +54,12 @@ pub fn over_all(
 
 /// Adds the columns of a group times its steps.
 #[inline(always)]
-fn add_steps<'a>(column: impl Fn(usize) -> &'a [f64], dim: usize, steps: Steps, sum: &mut [f64]) {
-    let mut moved = (0..dim).filter(|&c| steps[c] != 0.0);
+fn add_steps<'a, const DIM: usize>(
+    column: impl Fn(usize) -> &'a [f64],
+    steps: Steps,
+    sum: &mut [f64],
+) {
+    let mut moved = (0..DIM).filter(|&c| steps[c] != 0.0);
     match [moved.next(), moved.next(), moved.next()] {
         [Some(a), Some(b), Some(c)] => {
             add_columns(sum, [steps[a], steps[b], steps[c]], [column(a), column(b), column(c)]);

@@ -18,18 +18,29 @@ use crate::monitor::Monitor;
 pub fn sweep(
     laws: &[PairLaw],
     matrix: Matrix<'_>,
+    iterate: (&mut [f64], &mut [f64]),
+    omega: f64,
+) -> f64 {
+    match matrix.size() / laws.len().max(1) {
+        3 => sweep_in::<3>(laws, matrix, iterate, omega),
+        2 => sweep_in::<2>(laws, matrix, iterate, omega),
+        _ => sweep_in::<1>(laws, matrix, iterate, omega),
+    }
+}
+
+fn sweep_in<const DIM: usize>(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
     (d, force): (&mut [f64], &mut [f64]),
     omega: f64,
 ) -> f64 {
-    let dim = matrix.size() / laws.len().max(1);
-    over_all(
+    over_all::<DIM>(
         matrix,
-        dim.max(1),
         force,
         #[inline(always)]
         |i, force| {
-            let coupling = &matrix.column(i)[i + 1..i + dim];
-            laws[i / dim].relax(&mut d[i..i + dim], force, coupling, omega)
+            let coupling = &matrix.column(i)[i + 1..i + DIM];
+            laws[i / DIM].relax(&mut d[i..i + DIM], force, coupling, omega)
         },
     )
 }

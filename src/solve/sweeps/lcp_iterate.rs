@@ -10,9 +10,8 @@ use crate::problem::BoundedLcp;
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
 /// the change in the norm of the diagonal of `M`.
 pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
-    over_all(
+    over_all::<1>(
         lcp.matrix,
-        1,
         w,
         #[inline(always)]
         |i, w| {
