@@ -3,7 +3,7 @@
 //! With `dd` the displacements of a unit of an unknown ([`Slopes`]), the equation of a normal component is
 //! `(K dd)_n`, and that of a tangential one `(K dd)_t - drag (K dd)_n + turn x`.
 
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
 use super::slopes::{Linearised, Slopes};
@@ -24,12 +24,12 @@ pub struct Unknown {
     pub column: f64,
 }
 
-/// The coefficients of a system.
-pub struct Assembly<'s> {
+/// The coefficients of a system of pairs `P`.
+pub struct Assembly<'s, P> {
     dim: usize,
     matrix: Matrix<'s>,
     unknowns: &'s [Unknown],
-    slopes: &'s [Slopes],
+    pairs: &'s [P],
     /// The scale and the drag of each equation: it is `scale (v[at] - drag v[normal])` of `v = K dd`, but for the turn of its
     /// pair.
     scales: Vec<f64>,
@@ -78,23 +78,18 @@ impl<'i> Image<'i> {
     }
 }
 
-impl<'s> Assembly<'s> {
-    /// The coefficients for the `unknowns`, in the order of the components, of pairs of `dim` components with their
-    /// `slopes`; `matrix` is `K`.
-    pub fn new(
-        dim: usize,
-        matrix: Matrix<'s>,
-        unknowns: &'s [Unknown],
-        slopes: &'s [Slopes],
-    ) -> Self {
+impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
+    /// The coefficients for the `unknowns`, in the order of the components, of pairs of `dim` components; `matrix`
+    /// is `K`.
+    pub fn new(dim: usize, matrix: Matrix<'s>, unknowns: &'s [Unknown], pairs: &'s [P]) -> Self {
         let drag = |unknown: &Unknown| match unknown.component {
             0 => 0.0,
-            c => slopes[unknown.pair].drag[c - 1],
+            c => pairs[unknown.pair].borrow().drag[c - 1],
         };
         let scales = unknowns.iter().map(|unknown| unknown.row).collect();
         let drags = unknowns.iter().map(drag).collect();
         let mut assembly =
-            Assembly { dim, matrix, unknowns, slopes, scales, drags, runs: Vec::new() };
+            Assembly { dim, matrix, unknowns, pairs, scales, drags, runs: Vec::new() };
         assembly.find_runs();
         assembly
     }
@@ -141,7 +136,7 @@ impl<'s> Assembly<'s> {
 
     /// Displacements of its pair by a unit of an unknown.
     pub fn motion_of(&self, unknown: &Unknown) -> [f64; 3] {
-        let motion = &self.slopes[unknown.pair].motion;
+        let motion = &self.pairs[unknown.pair].borrow().motion;
         match unknown.component {
             0 => [unknown.column, 0.0, 0.0],
             c => [0.0, motion[0][c - 1] * unknown.column, motion[1][c - 1] * unknown.column],
@@ -199,7 +194,7 @@ impl<'s> Assembly<'s> {
         );
         let unknown = &self.unknowns[j];
         let Some(own) = unknown.component.checked_sub(1) else { return };
-        let turn = &self.slopes[unknown.pair].turn;
+        let turn = &self.pairs[unknown.pair].borrow().turn;
         let near = first.max(j.saturating_sub(1))..self.unknowns.len().min(j + 2);
         for (entry, equation) in entries[near.clone()].iter_mut().zip(&self.unknowns[near]) {
             if equation.pair == unknown.pair && equation.component > 0 {

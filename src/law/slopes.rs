@@ -10,6 +10,8 @@
 //! because where the bound grows by a part and the slip stays, the trial force less `k` times the slip grows by that
 //! part along the friction. Nothing is divided by the slip. An open pair has the normal displacement as its unknown.
 
+use std::borrow::Borrow;
+
 use super::{Piece, Planar, Plane, Vector, ellipse};
 
 /// The derivatives of a pair that moves along its tangents.
@@ -41,6 +43,12 @@ pub struct Linearised {
     pub slopes: Slopes,
     /// `k` of the normal component, and of the tangential ones.
     scale: [f64; 2],
+}
+
+impl Borrow<Slopes> for Linearised {
+    fn borrow(&self) -> &Slopes {
+        &self.slopes
+    }
 }
 
 impl Linearised {

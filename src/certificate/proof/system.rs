@@ -106,7 +106,7 @@ impl<'c> System<'c> {
     }
 
     /// The coefficients of the scaled matrix.
-    fn assembly(&self) -> Assembly<'_> {
+    fn assembly(&self) -> Assembly<'_, Slopes> {
         let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
         Assembly::new(dim, matrix, &self.unknowns, &self.slopes)
     }

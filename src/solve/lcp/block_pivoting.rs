@@ -204,21 +204,20 @@ impl Iterate<'_> {
         let lcp = self.lcp;
         let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
         let pairs: Vec<Linearised> = basic.iter().zip(&self.units).map(pair).collect();
-        monitor.affords(self.systems.work(&pairs))?;
         let mut step = vec![0.0; self.x.len()];
         for i in (0..step.len()).filter(|&i| !basic[i]) {
             step[i] = lcp.lower[i] - self.x[i];
             self.x[i] = lcp.lower[i];
         }
         lcp.matrix.add_product(&step, &mut self.w);
-        self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
+        self.systems.go_to(pairs, monitor)?;
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
-        let moved = self.systems.step(&lack.collect::<Vec<f64>>()).ok_or(Ending::Singular)?;
+        let moved = self.systems.step(&lack.collect::<Vec<f64>>())?;
         // The solution tells `w` too; what it is worth is measured where it ends.
         for (i, moved) in moved.iter().enumerate() {
             match basic[i] {
-                true => (self.x[i], self.w[i]) = (self.x[i] + moved[0] / self.units[i], 0.0),
-                false => self.w[i] -= moved[0],
+                true => (self.x[i], self.w[i]) = (self.x[i] + moved / self.units[i], 0.0),
+                false => self.w[i] -= moved,
             }
         }
         Ok(())

@@ -11,7 +11,7 @@ use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::part::many_are_open;
-use crate::solve::pieces::{Equations, Point, Systems};
+use crate::solve::pieces::{Equations, Point, Systems, by_pairs};
 use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_pairs;
 
@@ -216,9 +216,8 @@ impl<'e> Dense<'e> {
     /// The step from the pieces of a point.
     fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
-        monitor.affords(self.systems.work(&pairs))?;
-        self.systems.go_to(pairs, &mut monitor.asking()).ok_or(Ending::Singular)?;
-        let step = self.systems.step(&point.lack).ok_or(Ending::Singular)?;
+        self.systems.go_to(pairs, monitor)?;
+        let step = by_pairs(self.equations.dim, &self.systems.step(&point.lack)?);
         self.orientation = self.systems.orientation();
         self.pieces.clone_from(&point.pieces);
         self.y.clone_from(&point.y);
@@ -234,7 +233,8 @@ impl<'e> Dense<'e> {
         let is_enough =
             |point: &Point| enough > 0.0 && equations.eta(&point.d, &point.force) <= enough;
         while !monitor.is_late() && !is_enough(&point) {
-            let Some(step) = self.systems.step(&point.lack) else { break };
+            let Ok(step) = self.systems.step(&point.lack) else { break };
+            let step = by_pairs(equations.dim, &step);
             let next = Point::new(equations, moved(&point.y, &step, 1.0));
             if !(next.merit < CHORD * point.merit) {
                 break;

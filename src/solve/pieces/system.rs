@@ -18,7 +18,7 @@
 
 use super::equations::{Equations, by_pairs};
 use super::held::{self, Held};
-use crate::law::{Assembly, Image, Linearised, Slopes, Unknown, Vector, ellipse};
+use crate::law::{Assembly, Image, Linearised, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
@@ -43,7 +43,6 @@ pub struct System {
     all: usize,
     s: f64,
     pairs: Vec<Linearised>,
-    slopes: Vec<Slopes>,
     unknowns: Vec<Unknown>,
     /// Components that are no unknowns.
     held: Held,
@@ -91,8 +90,7 @@ impl System {
                 false => held.push(i),
             }
         }
-        let slopes: Vec<Slopes> = pairs.iter().map(|pair| pair.slopes).collect();
-        let assembly = Assembly::new(dim, equations.matrix, &unknowns, &slopes);
+        let assembly = Assembly::new(dim, equations.matrix, &unknowns, &pairs);
         let coefficients =
             Coefficients { equations, assembly, unknowns: &unknowns, pairs: &pairs, s, least };
         let (factor, border) = match border {
@@ -103,7 +101,7 @@ impl System {
             }
         };
         let held = Held::new(held);
-        Some(System { dim, all, s, pairs, slopes, unknowns, held, factor, border })
+        Some(System { dim, all, s, pairs, unknowns, held, factor, border })
     }
 
     /// Sign of the determinant.
@@ -218,7 +216,7 @@ impl System {
                 let at = dim * unknown.pair;
                 let dragged = match unknown.component {
                     0 => 0.0,
-                    c => self.slopes[unknown.pair].drag[c - 1] * b[at],
+                    c => self.pairs[unknown.pair].slopes.drag[c - 1] * b[at],
                 };
                 (b[at + unknown.component] - dragged) * unknown.row
             }));
@@ -254,7 +252,7 @@ impl System {
         }
         let tangential = self.unknowns.iter().enumerate().filter(|(_, own)| own.component == 1);
         for (k, unknown) in tangential {
-            let motion = &self.slopes[unknown.pair].motion;
+            let motion = &self.pairs[unknown.pair].slopes.motion;
             match &mut moved[k..k + self.dim - 1] {
                 [one, other] => [*one, *other] = ellipse::product(motion, [*one, *other]),
                 along => along.iter_mut().for_each(|along| *along *= motion[0][0]),
@@ -266,7 +264,7 @@ impl System {
 /// The coefficients from which a system is factorised.
 struct Coefficients<'s> {
     equations: &'s Equations<'s>,
-    assembly: Assembly<'s>,
+    assembly: Assembly<'s, Linearised>,
     unknowns: &'s [Unknown],
     pairs: &'s [Linearised],
     s: f64,

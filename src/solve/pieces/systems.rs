@@ -3,13 +3,15 @@
 
 use super::amended::Amended;
 use super::before::Before;
-use super::equations::{Equations, by_pairs};
+use super::equations::Equations;
 use super::system::System;
-use crate::law::{Linearised, Vector};
+use crate::law::Linearised;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
+use crate::monitor::Monitor;
 use crate::problem::Remembered;
+use crate::solve::result::Ending;
 
 /// Below so many unknowns a new factorisation is cheaper than changes of an old one: measured on the bar on the
 /// plane.
@@ -79,38 +81,46 @@ impl<'e> Systems<'e> {
         (work <= System::work(self.equations, pairs)).then_some(work)
     }
 
-    /// Operations of [`Self::go_to`].
-    pub fn work(&self, pairs: &[Linearised]) -> f64 {
-        self.change_work(pairs).unwrap_or_else(|| System::work(self.equations, pairs))
-    }
-
     /// Lets the next system be factorised anew: changes lose accuracy that a new factor has.
     pub fn forget(&mut self) {
         self.last = None;
     }
 
-    /// Goes to the system of pairs on their pieces; `None` if it is singular, or where `goes_on` says no.
-    pub fn go_to(&mut self, pairs: Vec<Linearised>, goes_on: GoesOn<'_>) -> Option<()> {
+    /// Goes to the system of pairs on their pieces.
+    ///
+    /// # Errors
+    /// It is singular, or there is no time for it.
+    pub fn go_to(
+        &mut self,
+        pairs: Vec<Linearised>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), Ending> {
         let equations = self.equations;
-        if self.change_work(&pairs).is_some()
+        let change = self.change_work(&pairs);
+        monitor.affords(change.unwrap_or_else(|| System::work(equations, &pairs)))?;
+        let goes_on = &mut monitor.asking();
+        if change.is_some()
             && let Some(system) = &mut self.last
             && system.go_to(pairs.clone(), goes_on).is_some()
         {
-            return Some(());
+            return Ok(());
         }
         // Two factors never stand side by side.
         self.last = None;
         self.factorisations += 1;
-        let system = System::new(equations, (pairs, 1.0), None, SINGULAR, goes_on)?;
-        self.last = Some(Amended::of(equations, system));
-        Some(())
+        let system = System::new(equations, (pairs, 1.0), None, SINGULAR, goes_on);
+        self.last = Some(Amended::of(equations, system.ok_or(Ending::Singular)?));
+        Ok(())
     }
 
-    /// The step of the last system for the lack `H`; `None` if it overflows.
-    pub fn step(&mut self, lack: &[f64]) -> Option<Vec<Vector>> {
+    /// The step of the last system for the lack `H`.
+    ///
+    /// # Errors
+    /// It overflows.
+    pub fn step(&mut self, lack: &[f64]) -> Result<Vec<f64>, Ending> {
         let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
-        let dy = self.last.as_mut()?.solve(&b);
-        dy.iter().all(|dy| dy.is_finite()).then(|| by_pairs(self.equations.dim, &dy))
+        let dy = self.last.as_mut().map_or_else(Vec::new, |last| last.solve(&b));
+        if dy.iter().all(|dy| dy.is_finite()) { Ok(dy) } else { Err(Ending::Singular) }
     }
 
     /// Sign of the determinant of the last system.
