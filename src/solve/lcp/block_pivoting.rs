@@ -15,7 +15,7 @@ use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, Lcp};
-use crate::solve::pieces::{Before, Equations, REFINEMENTS, Systems};
+use crate::solve::pieces::{Before, Equations, REFINEMENTS, SMALL, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
 
@@ -158,11 +158,15 @@ fn solve(
     };
     let (_, x, w) = best;
     let systems = iterate.systems;
-    let (factorisations, orientation) = (systems.factorisations, systems.orientation());
-    let definite = match ending {
-        Ending::Done => systems.definite(&mut monitor.asking()),
-        _ => Vec::new(),
+    let factorisations = systems.factorisations;
+    // Variables that are all at their bounds have the system of the identity.
+    let (orientation, mut definite) = match basic.contains(&true) {
+        true => (systems.orientation(), systems.definite(&mut monitor.asking())),
+        false => (1, basic.clone()),
     };
+    if ending != Ending::Done {
+        definite.clear();
+    }
     systems.leave(|| Before::of_variables(&basic, (&x, &w), lcp.q));
     Pivoted { x, w, ending, factorisations, orientation, definite }
 }
@@ -210,6 +214,9 @@ impl Iterate<'_> {
             self.x[i] = lcp.lower[i];
         }
         lcp.matrix.add_product(&step, &mut self.w);
+        if !basic.contains(&true) {
+            return Ok(());
+        }
         self.systems.go_to(pairs, monitor)?;
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
         let moved = self.systems.step(&lack.collect::<Vec<f64>>())?;
@@ -287,7 +294,7 @@ impl Exchange {
         if self.patience > 0 {
             self.patience -= usize::from(!progress);
             let sweeps_help = iterate.lcp.symmetric && progress;
-            *basic = if sweeps_help { swept(iterate) } else { next };
+            *basic = if sweeps_help { swept(iterate, basic) } else { next };
         } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
@@ -300,10 +307,12 @@ fn active_set(lcp: &BoundedLcp<'_>, x: &[f64], w: &[f64]) -> Vec<bool> {
     (0..x.len()).map(|i| lcp.is_basic(i, x, w)).collect()
 }
 
-/// The active set after some sweeps, which the iterate does not keep.
-fn swept(iterate: &Iterate<'_>) -> Vec<bool> {
+/// The active set after some sweeps, which the iterate does not keep. Where the fixed costs of a system outweigh its
+/// arithmetic more of them save systems.
+fn swept(iterate: &Iterate<'_>, basic: &[bool]) -> Vec<bool> {
     let (lcp, mut x, mut w) = (iterate.lcp, iterate.x.clone(), iterate.w.clone());
-    for _ in 0..SWEEPS {
+    let is_small = basic.iter().filter(|basic| **basic).count() < SMALL;
+    for _ in 0..if is_small { 3 * SWEEPS } else { SWEEPS } {
         sweep_lcp(lcp, &mut x, &mut w, 1.0);
     }
     active_set(lcp, &x, &w)
