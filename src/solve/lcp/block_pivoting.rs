@@ -219,9 +219,9 @@ impl Iterate<'_> {
         }
         self.systems.go_to(pairs, monitor)?;
         let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
-        let moved = self.systems.step(&lack.collect::<Vec<f64>>())?;
+        let step = self.systems.step(&lack.collect::<Vec<f64>>())?;
         // The solution tells `w` too; what it is worth is measured where it ends.
-        for (i, moved) in moved.iter().enumerate() {
+        for (i, moved) in step.dy.iter().enumerate() {
             match basic[i] {
                 true => (self.x[i], self.w[i]) = (self.x[i] + moved / self.units[i], 0.0),
                 false => self.w[i] -= moved,

@@ -11,7 +11,7 @@ use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::part::many_are_open;
-use crate::solve::pieces::{Equations, Point, Systems, by_pairs};
+use crate::solve::pieces::{Equations, Point, Step, Systems};
 use crate::solve::result::{Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_pairs;
 
@@ -182,7 +182,7 @@ impl<'e> Dense<'e> {
     fn from(&mut self, point: Point, monitor: &mut Monitor<'_>) -> Result<Point, Ending> {
         monitor.step()?;
         let step = self.system(&point, monitor)?;
-        Ok(Point::new(self.equations, moved(&point.y, &step, 1.0)))
+        Ok(point.after(self.equations, &step, 1.0))
     }
 
     /// Goes on from a point to a tolerance, with so many systems at least.
@@ -214,10 +214,10 @@ impl<'e> Dense<'e> {
     }
 
     /// The step from the pieces of a point.
-    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
+    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
         self.systems.go_to(pairs, monitor)?;
-        let step = by_pairs(self.equations.dim, &self.systems.step(&point.lack)?);
+        let step = self.systems.step(&point.lack)?;
         self.orientation = self.systems.orientation();
         self.pieces.clone_from(&point.pieces);
         self.y.clone_from(&point.y);
@@ -234,8 +234,8 @@ impl<'e> Dense<'e> {
             |point: &Point| enough > 0.0 && equations.eta(&point.d, &point.force) <= enough;
         while !monitor.is_late() && !is_enough(&point) {
             let Ok(step) = self.systems.step(&point.lack) else { break };
-            let step = by_pairs(equations.dim, &step);
-            let next = Point::new(equations, moved(&point.y, &step, 1.0));
+            // What has been carried along has the rounding of all steps: the last digits are measured anew.
+            let next = point.after(equations, &Step { product: Vec::new(), ..step }, 1.0);
             if !(next.merit < CHORD * point.merit) {
                 break;
             }
@@ -268,7 +268,7 @@ impl<'e> Dense<'e> {
 
 impl NormalMap for Dense<'_> {
     type Point = Point;
-    type Step = Vec<Vector>;
+    type Step = Step;
 
     fn eta(&self, point: &Point) -> f64 {
         self.equations.eta(&point.d, &point.force)
@@ -278,7 +278,7 @@ impl NormalMap for Dense<'_> {
         point.merit
     }
 
-    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
+    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
         if let Some((last, others)) = self.swept_to.split_last()
             && others.contains(last)
         {
@@ -292,17 +292,11 @@ impl NormalMap for Dense<'_> {
         self.system(point, monitor)
     }
 
-    fn moved(&mut self, point: &Point, step: &Vec<Vector>, part: f64) -> Result<Point, Ending> {
-        Ok(Point::new(self.equations, moved(&point.y, step, part)))
+    fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Ending> {
+        Ok(point.after(self.equations, step, part))
     }
 
-    fn after(
-        &mut self,
-        point: Point,
-        _step: Vec<Vector>,
-        part: f64,
-        monitor: &mut Monitor<'_>,
-    ) -> Point {
+    fn after(&mut self, point: Point, _step: Step, part: f64, monitor: &mut Monitor<'_>) -> Point {
         let is_linear = self.systems.are_of_pieces();
         self.is_exact = part == 1.0 && point.pieces == self.pieces;
         if is_linear && let Some(stuck) = self.without_reversal(&point) {
@@ -313,7 +307,11 @@ impl NormalMap for Dense<'_> {
             self.swept_to.push(swept.pieces.clone());
             return swept;
         }
-        if self.is_exact || part == 1.0 && !is_linear {
+        if self.is_exact {
+            let anew = Point::new(self.equations, point.y);
+            return self.chords(anew, 0.0, monitor);
+        }
+        if part == 1.0 && !is_linear {
             return self.chords(point, 0.0, monitor);
         }
         if !is_linear {
@@ -322,10 +320,4 @@ impl NormalMap for Dense<'_> {
         let swept = self.swept(&point, SWEEPS, monitor);
         if swept.merit < point.merit { swept } else { point }
     }
-}
-
-/// `y + part dy`.
-fn moved(y: &[Vector], step: &[Vector], part: f64) -> Vec<Vector> {
-    let each = |(y, dy): (&Vector, &Vector)| std::array::from_fn(|c| y[c] + part * dy[c]);
-    y.iter().zip(step).map(each).collect()
 }

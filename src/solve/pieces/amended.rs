@@ -4,10 +4,10 @@
 //! of all other components follow from the displacements, by one product with `K` for each right-hand side.
 
 use super::columns::Columns;
-use super::equations::Equations;
+use super::equations::{Equations, Step, by_pairs};
 use super::system::System;
 use super::term::{Term, terms};
-use crate::law::{Linearised, Vector};
+use crate::law::Linearised;
 use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
@@ -27,15 +27,24 @@ pub struct Amended<'e> {
 struct Change {
     /// All pairs on their pieces of today.
     pairs: Vec<Linearised>,
-    terms: Vec<Term>,
-    /// The components of pairs that change and that were no unknowns; their rows of `K`, and their pushes in each known
-    /// column.
-    held: Vec<usize>,
-    rows: Vec<f64>,
-    pushes: Vec<f64>,
+    changed: Changed,
+    /// The terms, each with the place of its pair's coordinates among those of the pairs that change.
+    terms: Vec<(usize, Term)>,
+    /// The coordinates of the pairs that change in each known column.
+    coordinates: Vec<f64>,
     /// `M`, by columns, and its factor.
     matrix: Vec<f64>,
     factor: Factor,
+}
+
+/// The pairs that change.
+struct Changed {
+    pairs: Vec<usize>,
+    /// Where each of their components is among the unknowns, with its unit; `None`: it was no unknown.
+    places: Vec<Option<(usize, f64)>>,
+    /// Those that were none, and their rows of `K`.
+    held: Vec<usize>,
+    rows: Vec<f64>,
 }
 
 impl<'e> Amended<'e> {
@@ -81,36 +90,49 @@ impl<'e> Amended<'e> {
             return Some(());
         }
         self.prepare(&terms, goes_on)?;
-        let dim = equations.dim;
-        let mut held: Vec<usize> =
-            terms.iter().flat_map(|own| own.first..own.first + dim).collect();
-        held.dedup();
-        held.retain(|&i| !self.base.pairs()[i / dim].moves(i % dim));
-        let rows = self.base.rows(equations, &held);
-        let (known, size) = (self.columns.components(), self.base.size());
-        let mut pushes = Vec::with_capacity(held.len() * known.len());
+        let changed = self.changed(&terms);
+        let place = |term: &Term| changed.pairs.binary_search(&(term.first / equations.dim));
+        let placed =
+            terms.into_iter().map(|term| (place(&term).map_or(0, |at| at * equations.dim), term));
+        let terms: Vec<(usize, Term)> = placed.collect();
+        let known = self.columns.components();
+        let mut pushes = Vec::with_capacity(changed.held.len() * known.len());
         for &j in known {
-            pushes.extend(held.iter().map(|&i| equations.change_entry(i, j)));
+            pushes.extend(changed.held.iter().map(|&i| equations.change_entry(i, j)));
         }
-        subtract_product(&mut pushes, &rows, self.columns.values(), size);
-        let count = terms.len();
+        let coordinates = changed.coordinates(&self.base, self.columns.values(), pushes);
+        let (count, size) = (terms.len(), changed.places.len());
         let mut matrix = vec![0.0; count * count];
-        for (column, term) in matrix.chunks_exact_mut(count).zip(&terms) {
-            for (place, u) in term.parts().filter_map(|(i, u)| Some((self.columns.place(i)?, u))) {
-                let x = &self.columns.values()[size * place..size * (place + 1)];
-                let pushes = &pushes[held.len() * place..held.len() * (place + 1)];
-                for (entry, row) in column.iter_mut().zip(&terms) {
-                    *entry += u * row.along(&self.own(row.first, x, (&held, pushes)));
-                }
+        let mut z = vec![0.0; size];
+        for (j, (column, (_, term))) in matrix.chunks_exact_mut(count).zip(&terms).enumerate() {
+            z.fill(0.0);
+            for (place, u) in self.columns.parts(term) {
+                let own = &coordinates[size * place..size * (place + 1)];
+                z.iter_mut().zip(own).for_each(|(z, own)| *z += u * own);
             }
+            let along = terms.iter().map(|(at, row)| row.along(&z[*at..]));
+            column.iter_mut().zip(along).for_each(|(entry, along)| *entry = along);
+            column[j] += 1.0;
         }
-        matrix.iter_mut().step_by(count + 1).for_each(|entry| *entry += 1.0);
         let fill = |j: usize, entries: &mut [f64]| {
             entries.copy_from_slice(&matrix[count * j..count * (j + 1)]);
         };
         let factor = Factor::new(count, false, SINGULAR, fill, goes_on)?;
-        self.change = Some(Change { pairs, terms, held, rows, pushes, matrix, factor });
+        self.change = Some(Change { pairs, changed, terms, coordinates, matrix, factor });
         Some(())
+    }
+
+    /// The pairs of terms.
+    fn changed(&self, terms: &[Term]) -> Changed {
+        let dim = self.equations.dim;
+        let mut pairs: Vec<usize> = terms.iter().map(|term| term.first / dim).collect();
+        pairs.dedup();
+        let components = || pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1));
+        let places: Vec<_> = components().map(|i| self.base.place(i)).collect();
+        let held = components().zip(&places).filter(|(_, place)| place.is_none());
+        let held: Vec<usize> = held.map(|(i, _)| i).collect();
+        let rows = self.base.rows(self.equations, &held);
+        Changed { pairs, places, held, rows }
     }
 
     /// Makes the columns that the terms need and that are not known; `None` where `goes_on` says no.
@@ -130,43 +152,36 @@ impl<'e> Amended<'e> {
         Some(())
     }
 
-    /// The coordinates of a pair that changes, on its piece of before, from the unknowns and the pushes of the components
-    /// that were none.
-    fn own(&self, first: usize, x: &[f64], (held, pushes): (&[usize], &[f64])) -> Vector {
-        let push = |i| pushes[held.binary_search(&i).expect("the pair changes")];
-        self.base.own(first / self.equations.dim, x, push)
-    }
-
     /// `J⁻¹ b`.
-    pub fn solve(&mut self, b: &[f64]) -> Vec<f64> {
-        let equations = self.equations;
-        let Some(mut change) = self.change.take() else { return self.base.solve(equations, b) };
+    pub fn step(&mut self, b: &[f64]) -> Step {
+        let (equations, dim) = (self.equations, self.equations.dim);
+        if !equations.are_linear() {
+            let dy = self.base.solve(equations, b);
+            return Step { dy, dd: Vec::new(), product: Vec::new() };
+        }
         let mut x = self.base.unknowns(b);
-        let mut pushes: Vec<f64> = change.held.iter().map(|&i| b[i]).collect();
-        subtract_product(&mut pushes, &change.rows, &x, x.len());
-        let own =
-            |first: usize, x: &[f64], pushes: &[f64]| self.own(first, x, (&change.held, pushes));
-        let along = change.terms.iter().map(|term| term.along(&own(term.first, &x, &pushes)));
-        let mut along: Vec<f64> = along.collect();
+        let Some(change) = &mut self.change else {
+            return equations.step(self.base.pairs(), b, self.base.displacements(&x));
+        };
+        let held = change.changed.held.iter().map(|&i| b[i]).collect();
+        let mut y = change.changed.coordinates(&self.base, &x, held);
+        let mut along: Vec<f64> =
+            change.terms.iter().map(|(at, term)| term.along(&y[*at..])).collect();
         change.factor.solve(&mut along);
         let mut parts = vec![0.0; self.columns.components().len()];
-        for (term, along) in change.terms.iter().zip(&along) {
-            let known = term.parts().filter_map(|(i, u)| Some((self.columns.place(i)?, u)));
-            known.for_each(|(place, u)| parts[place] += u * along);
+        for ((_, term), along) in change.terms.iter().zip(&along) {
+            self.columns.parts(term).for_each(|(place, u)| parts[place] += u * along);
         }
         subtract_columns(&mut x, self.columns.values(), &parts);
-        subtract_columns(&mut pushes, &change.pushes, &parts);
+        subtract_columns(&mut y, &change.coordinates, &parts);
         let mut dd = self.base.displacements(&x);
-        for first in change.terms.iter().map(|term| term.first) {
-            let pair = first / equations.dim;
-            let moved = change.pairs[pair].moved(&own(first, &x, &pushes));
-            for (i, moved) in (first..first + equations.dim).zip(moved) {
+        for (&pair, y) in change.changed.pairs.iter().zip(by_pairs(dim, &y)) {
+            let moved = change.pairs[pair].moved(&y);
+            for (i, moved) in (dim * pair..dim * (pair + 1)).zip(moved) {
                 dd[i] = moved / equations.root[i].powi(2);
             }
         }
-        let y = equations.with_pushes(&change.pairs, b, dd);
-        self.change = Some(change);
-        y
+        equations.step(&change.pairs, b, dd)
     }
 
     /// Sign of `det J`.
@@ -190,8 +205,8 @@ impl<'e> Amended<'e> {
         let now: Vec<bool> = basic(&change.pairs);
         let (root, count) = (&self.equations.root, change.terms.len());
         let became_basic: Vec<(usize, f64)> = (change.terms.iter().enumerate())
-            .filter(|(_, term)| now[term.first])
-            .map(|(k, term)| (k, root[term.first]))
+            .filter(|(_, (_, term))| now[term.first])
+            .map(|(k, (_, term))| (k, root[term.first]))
             .collect();
         let fill = |j: usize, column: &mut [f64]| {
             let (own, root) = became_basic[j];
@@ -204,5 +219,29 @@ impl<'e> Amended<'e> {
             return none;
         }
         before.iter().zip(&now).map(|(before, now)| before | now).collect()
+    }
+}
+
+impl Changed {
+    /// The coordinates of the pairs that change, on their pieces of before, for each column of unknowns `x` and of the
+    /// right-hand sides `b` of the components that were none.
+    fn coordinates(&self, base: &System, x: &[f64], b: Vec<f64>) -> Vec<f64> {
+        let (dim, size, mut pushes) = (self.places.len() / self.pairs.len(), base.size(), b);
+        subtract_product(&mut pushes, &self.rows, x, size);
+        let known = x.len().checked_div(size).unwrap_or(pushes.len() / self.held.len().max(1));
+        let mut coordinates = Vec::with_capacity(known * self.places.len());
+        let mut pushes = pushes.into_iter();
+        for column in 0..known {
+            let x = &x[size * column..size * (column + 1)];
+            for (&pair, places) in self.pairs.iter().zip(self.places.chunks_exact(dim)) {
+                let begin = coordinates.len();
+                coordinates.extend(places.iter().map(|place| match place {
+                    Some((place, unit)) => x[*place] * unit,
+                    None => pushes.next().expect("one for each that was no unknown"),
+                }));
+                base.pairs()[pair].complete(&mut coordinates[begin..]);
+            }
+        }
+        coordinates
     }
 }

@@ -3,6 +3,8 @@
 //! A change needs one or two of them for each pair. Many right-hand sides together take a tenth of the time that they
 //! take one after the other, because the factor is read once.
 
+use super::term::Term;
+
 /// Most columns that are kept, as a part of all: they take memory.
 const KEPT: f64 = 0.25;
 
@@ -35,9 +37,9 @@ impl Columns {
         &self.values
     }
 
-    /// Where the column of a component is among those that are known.
-    pub fn place(&self, component: usize) -> Option<usize> {
-        self.place[component]
+    /// The known columns of which the column of a term is made, each with its part.
+    pub fn parts(&self, term: &Term) -> impl Iterator<Item = (usize, f64)> {
+        term.parts().filter_map(|(i, u)| Some((self.place[i]?, u)))
     }
 
     /// The column of a component.

@@ -116,17 +116,21 @@ impl<'a> Equations<'a> {
         dd
     }
 
-    /// The change of the coordinates of pairs in the plane where displacements change by `dd`: those that do not move are
-    /// `b - K dd`.
-    pub fn with_pushes(&self, pairs: &[Linearised], b: &[f64], mut dd: Vec<f64>) -> Vec<f64> {
-        let product = self.matrix.product(&dd);
-        for (at, (pair, own)) in pairs.iter().zip(dd.chunks_exact_mut(self.dim)).enumerate() {
+    /// True if the law is linear on each piece: in the plane, and of complementarity problems.
+    pub fn are_linear(&self) -> bool {
+        self.dim < 3
+    }
+
+    /// The step on pieces of a linear law that moves displacements by `dd`: coordinates that do not move are `b - K dd`.
+    pub fn step(&self, pairs: &[Linearised], b: &[f64], dd: Vec<f64>) -> Step {
+        let (product, mut dy) = (self.matrix.product(&dd), dd.clone());
+        for (at, (pair, own)) in pairs.iter().zip(dy.chunks_exact_mut(self.dim)).enumerate() {
             for (c, own) in own.iter_mut().enumerate().filter(|(c, _)| !pair.moves(*c)) {
                 *own = b[self.dim * at + c] - product[self.dim * at + c];
             }
             pair.complete(own);
         }
-        dd
+        Step { dy, dd, product }
     }
 
     /// The coordinates of displacements and the force that they need.
@@ -171,6 +175,15 @@ impl<'a> Equations<'a> {
     }
 }
 
+/// A step of Newton's method.
+pub struct Step {
+    /// The change of the coordinates.
+    pub dy: Vec<f64>,
+    /// That of the displacements, and its product with `K`, where the law is linear on each piece; otherwise nothing.
+    pub dd: Vec<f64>,
+    pub product: Vec<f64>,
+}
+
 /// A point of the law with its lack of equilibrium.
 #[derive(Clone)]
 pub struct Point {
@@ -196,13 +209,37 @@ impl Point {
 
     /// The point at `y` on given pieces.
     pub fn on(equations: &Equations<'_>, pieces: Vec<Piece>, y: Vec<Vector>) -> Self {
-        Self::with_force(equations, (pieces, y), |d| equations.force(d))
+        Self::with_force(equations, (pieces, y), |_, d| equations.force(d))
+    }
+
+    /// The point after a part of a step, which is one from the pieces of this point.
+    pub fn after(&self, equations: &Equations<'_>, step: &Step, part: f64) -> Self {
+        let dim = equations.dim;
+        let each = |(y, dy): (&Vector, &[f64])| {
+            std::array::from_fn(|c| y[c] + dy.get(c).map_or(0.0, |dy| part * dy))
+        };
+        let y: Vec<Vector> = self.y.iter().zip(step.dy.chunks_exact(dim)).map(each).collect();
+        Self::with_force(equations, (equations.pieces(&y), y), |pieces, d| {
+            if step.product.is_empty() {
+                return equations.force(d);
+            }
+            // Beyond the pieces of this point displacements are others than the step tells.
+            let mut beyond = vec![0.0; d.len()];
+            let changed = (0..pieces.len()).filter(|&pair| pieces[pair] != self.pieces[pair]);
+            for i in changed.flat_map(|pair| dim * pair..dim * (pair + 1)) {
+                beyond[i] = d[i] - (self.d[i] + part * step.dd[i]);
+            }
+            let forces = self.force.iter().zip(&step.product);
+            let mut force = forces.map(|(force, moved)| force + part * moved).collect::<Vec<f64>>();
+            equations.matrix.add_product(&beyond, &mut force);
+            force
+        })
     }
 
     /// The point of the solution before, under the loads of these equations.
     pub fn of_before(equations: &Equations<'_>, before: Before) -> Self {
         let Before { pieces, d, y, product } = before;
-        Self::with_force(equations, (pieces, y), |now| match now == d {
+        Self::with_force(equations, (pieces, y), |_, now| match now == d {
             true => product.iter().zip(&*equations.load).map(|(product, f)| product - f).collect(),
             false => equations.force(now),
         })
@@ -218,11 +255,11 @@ impl Point {
     fn with_force(
         equations: &Equations<'_>,
         (pieces, y): (Vec<Piece>, Vec<Vector>),
-        force: impl FnOnce(&[f64]) -> Vec<f64>,
+        force: impl FnOnce(&[Piece], &[f64]) -> Vec<f64>,
     ) -> Self {
         // Where the pushes are the lack is made.
         let (d, mut lack) = equations.values(&pieces, &y);
-        let force = force(&d);
+        let force = force(&pieces, &d);
         lack.iter_mut().zip(&force).for_each(|(lack, force)| *lack += force);
         let merit = equations.length(&lack);
         Point { y, pieces, d, force, lack, merit }

@@ -167,19 +167,11 @@ impl System {
         dd
     }
 
-    /// The coordinates of a pair, from the unknowns and the pushes of its other components.
-    pub fn own(&self, pair: usize, x: &[f64], push: impl Fn(usize) -> f64) -> Vector {
-        let mut own = [0.0; 3];
-        for (c, own) in own[..self.dim].iter_mut().enumerate() {
-            let place =
-                self.unknowns.binary_search_by_key(&(pair, c), |own| (own.pair, own.component));
-            *own = match place {
-                Ok(place) => x[place] * self.unknowns[place].column,
-                Err(_) => push(self.dim * pair + c),
-            };
-        }
-        self.pairs[pair].complete(&mut own[..self.dim]);
-        own
+    /// Where a component is among the unknowns, with its unit, if it is one.
+    pub fn place(&self, component: usize) -> Option<(usize, f64)> {
+        let key = (component / self.dim, component % self.dim);
+        let place = self.unknowns.binary_search_by_key(&key, |own| (own.pair, own.component));
+        place.ok().map(|place| (place, self.unknowns[place].column))
     }
 
     /// The rows of `K` of some components with the columns of the unknowns, in their units.

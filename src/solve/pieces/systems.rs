@@ -3,7 +3,7 @@
 
 use super::amended::Amended;
 use super::before::Before;
-use super::equations::Equations;
+use super::equations::{Equations, Step};
 use super::system::System;
 use crate::law::Linearised;
 use crate::linalg::tolerances::SINGULAR;
@@ -117,10 +117,10 @@ impl<'e> Systems<'e> {
     ///
     /// # Errors
     /// It overflows.
-    pub fn step(&mut self, lack: &[f64]) -> Result<Vec<f64>, Ending> {
+    pub fn step(&mut self, lack: &[f64]) -> Result<Step, Ending> {
         let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
-        let dy = self.last.as_mut().map_or_else(Vec::new, |last| last.solve(&b));
-        if dy.iter().all(|dy| dy.is_finite()) { Ok(dy) } else { Err(Ending::Singular) }
+        let step = self.last.as_mut().map(|last| last.step(&b));
+        step.filter(|step| step.dy.iter().all(|dy| dy.is_finite())).ok_or(Ending::Singular)
     }
 
     /// Sign of the determinant of the last system.
@@ -135,6 +135,6 @@ impl<'e> Systems<'e> {
 
     /// True if the last system is one of pieces, on which its solution is exact.
     pub fn are_of_pieces(&self) -> bool {
-        self.last.is_some() && self.equations.dim < 3
+        self.last.is_some() && self.equations.are_linear()
     }
 }
