@@ -9,7 +9,9 @@
 //! eta = |e| / max(|f|, |F|)                                      g = mu max(0, -F_n), or given
 //! ```
 //!
-//! For other laws see `law::natural_map`.
+//! For other laws see `law::natural_map`. A pair that is apart, `K_nn (d_n - gap) <= F_n < 0`, loses its force: where `F_t`
+//! beyond `g(0)` is longer than `e_t`, it stands for `e_t`. So `|e|` is not below what the forces that are returned
+//! lack to equilibrium.
 //!
 //! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too; `|F|` is the size of

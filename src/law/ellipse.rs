@@ -137,15 +137,17 @@ impl Ellipse {
     /// The friction on the ellipse of the bound `g` that belongs to the trial force `y` of a slip.
     pub fn friction(&self, y: [f64; 2], g: f64) -> [f64; 2] {
         match self.rule {
-            Rule::Associated => {
-                let h = self.nearest(y, g).h;
-                self.from_disc(h.map(|h| g * h))
-            }
+            Rule::Associated => self.nearest_to(y, g),
             Rule::Collinear => {
                 let size = length(self.disc_of(y));
                 y.map(|y| y / size * g)
             }
         }
+    }
+
+    /// The force on the ellipse of the bound `g` that is nearest to `y`.
+    pub fn nearest_to(&self, y: [f64; 2], g: f64) -> [f64; 2] {
+        self.from_disc(self.nearest(y, g).h.map(|h| g * h))
     }
 
     /// The derivative of [`Self::friction`] by `y`, and that by `g` at a given slip.

@@ -60,10 +60,13 @@ impl PairLaw {
         }
     }
 
-    /// Brings a trial force back to what the pair can carry under `threshold`.
+    /// Brings a force back to the nearest one that the pair can carry under `threshold`.
     pub(super) fn bring_back(&self, t: &mut [f64], threshold: f64) {
         if self.gauge(t) > threshold {
-            self.bring_to_bound(t, threshold);
+            match &self.ellipse {
+                None => self.bring_to_bound(t, threshold),
+                Some(ellipse) => t.copy_from_slice(&ellipse.nearest_to(pair_of(t), threshold)),
+            }
         }
     }
 

@@ -7,8 +7,10 @@
 //!
 //! with `back(y)` the trial force `y`, or where its gauge exceeds `g` the friction of a slip that belongs to it: along
 //! its own line, and with an ellipse as its rule says. Of an isotropic law
-//! `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)` the vector `x` shortened by `s`. It is zero
-//! exactly if the law is obeyed. Of a tie `e = k (d - reference)`, whatever the force.
+//! `e_t = k_t (delta - shrink(delta - F_t / k_t, g / k_t))`, `shrink(x, s)` the vector `x` shortened by `s`. A pair that is
+//! apart loses its pressure, and the friction of that pressure: where `k_n (d_n - gap) <= F_n - a < 0`, `e_t` is the part of
+//! `F_t` beyond the bound `g(0)`, if that is longer. So `|e|` is not below the change of `F` to one that the pair carries.
+//! It is zero exactly if the law is obeyed. Of a tie `e = k (d - reference)`, whatever the force.
 
 use super::{Ellipse, PairLaw, State, Vector, length};
 use crate::linalg::tolerances::FEW_OPERATIONS;
@@ -59,6 +61,28 @@ impl PairLaw {
             self.bring_to_bound(trial, threshold);
             (1..self.dim).for_each(|c| residual[c] = force[c] + trial[c - 1]);
         }
+        if self.loses_friction(d, force) {
+            let lost = self.beyond_bound(&force[1..self.dim], self.threshold(self.tension));
+            let lost = &lost[..self.dim - 1];
+            if length(lost) > length(&residual[1..self.dim]) {
+                residual[1..self.dim].copy_from_slice(lost);
+            }
+        }
+    }
+
+    /// True if the pair is apart, and has a pressure that friction may follow.
+    fn loses_friction(&self, d: &[f64], force: &[f64]) -> bool {
+        let pull = force[0] - self.tension;
+        pull < 0.0 && self.bound.slope > 0.0 && self.k_n * (d[0] - self.gap) <= pull
+    }
+
+    /// The part of a tangential force that the pair cannot carry under `threshold`.
+    fn beyond_bound(&self, force: &[f64], threshold: f64) -> [f64; 2] {
+        let mut carried = [0.0; 2];
+        let carried = &mut carried[..force.len()];
+        carried.copy_from_slice(force);
+        self.bring_back(carried, threshold);
+        std::array::from_fn(|c| force.get(c).map_or(0.0, |force| force - carried[c]))
     }
 
     /// Bound on the rounding of [`Self::natural_residual`] where its terms cancel, from forces that are
@@ -87,7 +111,7 @@ impl PairLaw {
         let has_bound = threshold > 0.0 || self.tension > 0.0;
         let slips = has_bound && !sticks && self.gauge(trial) + rounding > threshold;
         let pull = if self.tension > 0.0 { f64::EPSILON * force[0].abs() } else { 0.0 };
-        if slips { pull + rounding } else { pull }
+        if slips || self.loses_friction(d, force) { pull + rounding } else { pull }
     }
 
     /// Bound on the change of [`Self::natural_residual`] by a change of the force, relative to that change.
@@ -104,14 +128,16 @@ impl PairLaw {
     }
 
     /// The state of the active piece of the natural map. Pieces closer than the force `margin` are
-    /// not told apart: open comes before closed, stick before slip. A pair that is open has no friction, so that
-    /// friction under its pressure is below `margin` too.
+    /// not told apart: open comes before closed, stick before slip. A pair that is open has no friction, so that its
+    /// pressure and the friction under it are below `margin` too, if it is not apart.
     pub fn state(&self, d: &[f64], force: &[f64], margin: f64) -> State {
         let trial = self.trial(d, force);
         let threshold = self.threshold(force[0]);
         if self.tied {
             State::Stick
-        } else if trial[0] * self.bound.slope.max(1.0) <= margin {
+        } else if trial[0] <= 0.0
+            || trial[0].max(self.tension - force[0]) * self.bound.slope.max(1.0) <= margin
+        {
             State::Open
         } else if threshold > 0.0 && self.gauge(&trial[1..self.dim]) <= threshold + margin {
             State::Stick
@@ -120,7 +146,7 @@ impl PairLaw {
         }
     }
 
-    /// A force next to `force` that a pair in `state` can carry: the nearest one, but under the collinear rule.
+    /// The force nearest to `force` that a pair in `state` can carry.
     pub fn admissible_force(&self, force: &[f64], state: State) -> Vector {
         let mut admissible = [0.0; 3];
         admissible[..self.dim].copy_from_slice(force);
@@ -139,16 +165,11 @@ impl PairLaw {
         if self.tied {
             return Violation { penetration: (d[0] - self.gap).abs(), ..Violation::default() };
         }
-        let friction = &force[1..self.dim];
-        let mut carried = [0.0; 2];
-        let carried = &mut carried[..self.dim - 1];
-        carried.copy_from_slice(friction);
-        self.bring_back(carried, self.threshold(force[0]));
-        carried.iter_mut().zip(friction).for_each(|(carried, force)| *carried -= force);
+        let beyond = self.beyond_bound(&force[1..self.dim], self.threshold(force[0]));
         Violation {
             penetration: (d[0] - self.gap).max(0.0),
             tension: (force[0] - self.tension).max(0.0),
-            cone_excess: length(carried),
+            cone_excess: length(&beyond[..self.dim - 1]),
         }
     }
 }

@@ -134,10 +134,28 @@ fn slip(case: &Case, pair: usize, at: &Point, g: Quad) -> (Vec<Quad>, Vec<Vec<Qu
     (h.iter().map(|&h| g * h).collect(), (0..h.len()).map(column).collect(), h)
 }
 
-/// `eta` of `d`: `|e| / max(|f|, |F|)`; 0 of loads and forces that are below the last digits of the judge's own sums.
+/// The friction beyond `g(0)` of a pair that is apart, `k_n (d_n - gap) <= F_n - a < 0`: it carries the tension alone.
+/// The bound of an ellipse is zero then.
+fn lost(case: &Case, pair: usize, at: &Point) -> Vec<Quad> {
+    let is_apart = at.pull < Quad::ZERO && at.penetration.is_none_or(|closed| !(closed > at.pull));
+    let friction = &at.force[1..];
+    let (size, carried) = (norm(friction), threshold(case, pair, case.law.of(pair)[2].into()));
+    let lost = if is_apart && size > carried { (size - carried) / size } else { Quad::ZERO };
+    friction.iter().map(|&force| force * lost).collect()
+}
+
+/// `eta` of `d`: `|e| / max(|f|, |F|)`, with the friction that a pair loses for `e_t` where that is longer; 0 of loads and
+/// forces that are below the last digits of the judge's own sums.
 pub fn eta(case: &Case, d: &[Quad]) -> f64 {
     let force = force(case, d);
-    let (size, scale) = (norm(&residual(case, d, &force)), scale(case, &force));
+    let mut residual = residual(case, d, &force);
+    for (pair, own) in residual.chunks_exact_mut(case.dim).enumerate() {
+        let lost = lost(case, pair, &point(case, pair, d, &force));
+        if norm(&lost) > norm(&own[1..]) {
+            own[1..].copy_from_slice(&lost);
+        }
+    }
+    let (size, scale) = (norm(&residual), scale(case, &force));
     let digits = ZERO * parts(case, d).into_iter().fold(0.0, f64::max);
     if size == Quad::ZERO || scale.value() <= digits { 0.0 } else { (size / scale).value() }
 }

@@ -22,7 +22,8 @@ pub fn force(case: &Case, d: &[f64]) -> Vec<f64> {
 /// `e_t = K_tt (delta - shrink(delta - F_t / K_tt, g / K_tt))`, `g = mu max(0, -F_n)` or given; with
 /// cohesion `F_n - a` for `F_n` in `e_n`, and `g = mu max(-a, -F_n) + b`;
 ///
-/// case by case, so that displacements do not hide the forces in their rounding.
+/// case by case, so that displacements do not hide the forces in their rounding. Where `K_nn (d_n - gap) <= F_n - a < 0`
+/// the part of `F_t` beyond `g(a)` stands for `e_t`, if it is longer.
 pub fn eta(case: &Case, d: &[f64]) -> f64 {
     let force = force(case, d);
     let mut residual = Vec::new();
@@ -36,10 +37,19 @@ pub fn eta(case: &Case, d: &[f64]) -> f64 {
         let delta: Vec<f64> = (1..case.dim).map(|c| d[i + c] - case.rest(pair, c - 1)).collect();
         let trial: Vec<f64> = (1..case.dim).map(|c| k_t * delta[c - 1] - force[i + c]).collect();
         let (bound, length) = (case.bound(pair, force[i]), norm(&trial));
-        residual.extend((0..case.dim - 1).map(|c| match length > bound {
-            true => force[i + 1 + c] + bound * (trial[c] / length),
-            false => k_t * delta[c],
-        }));
+        let mut along: Vec<f64> = (0..case.dim - 1)
+            .map(|c| match length > bound {
+                true => force[i + 1 + c] + bound * (trial[c] / length),
+                false => k_t * delta[c],
+            })
+            .collect();
+        let (tension, friction) = (case.law.of(pair)[2], &force[i + 1..i + case.dim]);
+        let (size, carried) = (norm(friction), case.bound(pair, tension));
+        let apart = case.stiffness(i, i) * (d[i] - case.gap[pair]) <= force[i] - tension;
+        if apart && force[i] < tension && size - carried > norm(&along) {
+            along = friction.iter().map(|f| f * (1.0 - carried / size)).collect();
+        }
+        residual.extend(along);
     }
     let scale = norm(&case.f).max(norm(&force));
     if norm(&residual) == 0.0 { 0.0 } else { norm(&residual) / scale }

@@ -11,10 +11,12 @@
 //! the projection is repeated (cutting planes, on the exact disc), until little is left of it. The rest is
 //! taken away by Newton's method on the pairs that still approach their obstacles, in motions that stay rigid.
 
+use std::f64::consts::SQRT_2;
+
 use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
-use crate::linalg::nnls::nearest;
+use crate::linalg::nnls;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::dot;
@@ -117,7 +119,7 @@ impl<'c, R: Relation> Balance<'c, R> {
         }
         let mut last = Vec::new();
         for _ in 0..MOST_ROUNDS {
-            let rest = nearest(&load, &edges)?;
+            let rest = nnls::nearest(&load, &edges)?;
             let motion = self.motions.motion(&rest);
             if self.nearest(&motion) <= NEARLY * self.motions.size(&motion) {
                 let proof = self.sharpened(motion.clone());
@@ -175,54 +177,92 @@ impl<'c, R: Relation> Balance<'c, R> {
         worst
     }
 
-    /// A motion next to this one along which no pair approaches its obstacle, by Newton's method on `r_n + slope |r_t|* = 0`
-    /// of the pairs that do or nearly do, and of those that a step would let approach; as near to that as its steps come.
+    /// A motion next to this one along which no pair approaches its obstacle; as near to that as its steps come. Newton's
+    /// method solves `r_n + slope |r_t|* = 0` of the pairs that slide. Rounding of the motions leaves equations that
+    /// contradict each other in the last digits, and the least lift that the inequalities ask for takes these away.
     fn cleared(&self, mut motion: Vec<f64>) -> Vec<f64> {
-        let mut joined = vec![false; self.contact.pairs().len()];
         for _ in 0..STEPS {
-            let (nearest, least) = (self.nearest(&motion), STOPPED * self.motions.size(&motion));
-            if nearest <= least {
+            let (nearest, size) = (self.nearest(&motion), self.motions.size(&motion));
+            if nearest <= STOPPED * size {
                 break;
             }
-            let Some(step) = self.step_away(&motion, &joined) else { break };
-            let moved: Vec<f64> = motion.iter().zip(step).map(|(r, step)| r + step).collect();
-            if self.nearest(&moved) < nearest {
-                motion = moved;
-                continue;
-            }
-            let before = joined.clone();
-            let approaches = self.approaches(&moved);
-            joined.iter_mut().zip(approaches).for_each(|(is_in, by)| *is_in |= by > least);
-            if joined == before {
-                break;
-            }
+            let lift = self.least_lift(&motion, nearest);
+            let lift = lift.filter(|step| self.motions.size(step) <= NEARLY * size);
+            let better = [self.step_away(&motion), lift]
+                .into_iter()
+                .flatten()
+                .map(|step| motion.iter().zip(step).map(|(r, step)| r + step).collect::<Vec<f64>>())
+                .map(|moved| (self.nearest(&moved), moved))
+                .filter(|(to, _)| *to < nearest)
+                .min_by(|(a, _), (b, _)| a.total_cmp(b));
+            let Some((_, better)) = better else { break };
+            motion = better;
         }
         motion
     }
 
-    /// The motion that takes away the approach of the pairs that move towards their obstacles or along them or have `joined`,
-    /// to first order in the slip, and brings to rest those that nearly are, by least squares.
-    fn step_away(&self, motion: &[f64], joined: &[bool]) -> Option<Vec<f64>> {
+    /// True if the pair moves by more than little beside a motion of the `size`.
+    fn moves(&self, pair: usize, own: &[f64], size: f64) -> bool {
+        let roots = &self.motions.root[self.contact.dim() * pair..];
+        own.iter().zip(roots).any(|(r, root)| (r * root).abs() > NEARLY * size)
+    }
+
+    /// The motion that takes away the approach of the pairs that move towards their obstacles or along them, to first order
+    /// in the slip, and brings to rest those that nearly are, by least squares.
+    fn step_away(&self, motion: &[f64]) -> Option<Vec<f64>> {
         let dim = self.contact.dim();
         let size = self.motions.size(motion);
         let mut equations = Vec::new();
         for (pair, approach) in self.approaches(motion).into_iter().enumerate() {
-            let own = &motion[dim * pair..dim * (pair + 1)];
-            let mut ask = |force: &[f64]| {
-                let root = self.motions.root[dim * pair];
-                let row = self.on_pair(force, pair).iter().map(|work| work * root).collect();
-                equations.push((row, -dot(&force[..dim], own) * root));
-            };
-            let moves = |(r, root): (&f64, &f64)| (r * root).abs() > NEARLY * size;
-            if approach <= -NEGLIGIBLE * size && !joined[pair] {
+            if approach <= -NEGLIGIBLE * size {
                 continue;
             }
-            match own.iter().zip(&self.motions.root[dim * pair..]).any(moves) {
+            let own = &motion[dim * pair..dim * (pair + 1)];
+            let mut ask = |force: &[f64]| {
+                let (row, work) = self.row(force, pair, own);
+                equations.push((row, -work));
+            };
+            match self.moves(pair, own, size) {
                 true => ask(&self.contact.pairs()[pair].opposing_edge(own)),
                 false => UNIT_FORCES[..dim].iter().for_each(|force| ask(force)),
             }
         }
         Some(self.motions.motion(&least_squares(&equations, self.motions.basis.len())?))
+    }
+
+    /// The least motion that lifts every pair off its obstacle, to first order in the slip, from a motion on which pairs
+    /// approach by `nearest` at most; `None` if there is none. Least distance programming: of `e . x >= b`, the sum of
+    /// columns `(e, b)` nearest to `(0, -1)` leaves `(r, -s)`, and `x = r / s` (Lawson and Hanson, chapter 23).
+    fn least_lift(&self, motion: &[f64], nearest: f64) -> Option<Vec<f64>> {
+        let (dim, size) = (self.contact.dim(), self.motions.size(motion));
+        let mut columns = Vec::new();
+        let pairs = self.contact.pairs().iter().enumerate();
+        for (pair, law) in pairs.filter(|(_, law)| law.has_obstacle()) {
+            let own = &motion[dim * pair..dim * (pair + 1)];
+            let edges = match self.moves(pair, own, size) {
+                true => vec![law.opposing_edge(own)],
+                // Four edges of a cone around that of all forces.
+                false => law.cone_edges().into_iter().map(|[n, t, s]| [n / SQRT_2, t, s]).collect(),
+            };
+            for edge in edges {
+                let (mut column, work) = self.row(&edge, pair, own);
+                column.push(-work / nearest);
+                columns.push(column);
+            }
+        }
+        let mut target = vec![0.0; self.motions.basis.len()];
+        target.push(-1.0);
+        let mut rest = nnls::nearest(&target, &columns)?;
+        let along = -rest.pop()?;
+        rest.iter_mut().for_each(|x| *x *= nearest / along);
+        Some(self.motions.motion(&rest))
+    }
+
+    /// Work of a force of a pair on each motion, and on its motion `own`, in the unit of `root`.
+    fn row(&self, force: &[f64], pair: usize, own: &[f64]) -> (Vec<f64>, f64) {
+        let root = self.motions.root[self.contact.dim() * pair];
+        let row = self.on_pair(force, pair).iter().map(|work| work * root).collect();
+        (row, dot(&force[..own.len()], own) * root)
     }
 }
 

@@ -1,14 +1,15 @@
 //! Motions of a body of three pairs that nothing holds, in closed form.
 
-use super::{Balance, least_squares};
+use super::{Balance, STOPPED, least_squares};
 use crate::law::Contact;
+use crate::linalg::gmres::extend_basis;
 use crate::problem::{ContactData, ContactProblem, FrictionLaw};
 use crate::solve::result::Ending;
 use crate::solve::rigid::motions::RigidMotions;
 use fastrand::Rng;
 
 /// Three pairs on one line, tied to each other by springs of 1, each touching its obstacle.
-fn body() -> ContactProblem<'static> {
+fn body(law: FrictionLaw<'static>) -> ContactProblem<'static> {
     let mut k = vec![0.0; 36];
     for (pair, component) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let (i, j) = (2 * pair + component, 2 * pair + component + 2);
@@ -22,7 +23,7 @@ fn body() -> ContactProblem<'static> {
         ld: 6,
         load: &[0.0; 6],
         gap: &[0.0; 3],
-        law: FrictionLaw::Frictionless,
+        law,
         reference_slip: None,
     };
     ContactProblem::new(data).expect("valid data")
@@ -37,7 +38,7 @@ fn along_normals(by: f64) -> [f64; 6] {
 /// that, and only there. One that moves towards them is stopped, and proves nothing, even if it is taken for a proof.
 #[test]
 fn only_a_motion_that_nothing_stops_and_that_proves_it_is_a_recession() {
-    let problem = body();
+    let problem = body(FrictionLaw::Frictionless);
     let contact = Contact::new(&problem);
     for length in [1.0, 2.0_f64.powi(30), 2.0_f64.powi(-30)] {
         for (by, proves, expected) in [
@@ -62,7 +63,7 @@ fn only_a_motion_that_nothing_stops_and_that_proves_it_is_a_recession() {
 /// The pairs that a motion brings nearer to their obstacles are told, the one that comes nearest first; others are not.
 #[test]
 fn pairs_that_approach_are_told_in_order() {
-    let problem = body();
+    let problem = body(FrictionLaw::Frictionless);
     let contact = Contact::new(&problem);
     let balance =
         Balance::of(&contact, RigidMotions::along(&problem, &along_normals(1.0)), |_| true);
@@ -76,6 +77,41 @@ fn pairs_that_approach_are_told_in_order() {
         let motion: Vec<f64> =
             normals.iter().zip(root).flat_map(|(normal, root)| [normal / root, 0.0]).collect();
         assert_eq!(balance.worst(&motion), expected, "{normals:?}");
+    }
+}
+
+/// Pairs that slide, with normal displacements of rounding, are lifted off their obstacles where a rigid motion lifts all of
+/// them, by a motion that is rigid and as small as the rounding. Two rigid motions do not bring three pairs to rest, so that
+/// equations alone leave a pair that approaches.
+#[test]
+fn what_rounding_leaves_of_an_approach_is_lifted() {
+    let rng = &mut Rng::with_seed(3);
+    for seed in 0..1000 {
+        let mu = [0.0, 0.5, 100.0][seed % 3];
+        let problem = body(FrictionLaw::Coulomb(vec![mu; 3].leak()));
+        let contact = Contact::new(&problem);
+        let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
+        for lift in [0.1, -1.0] {
+            let normal: [f64; 3] = std::array::from_fn(|_| -lift - (1.0 - lift) * rng.f64());
+            let scaled = normal.into_iter().flat_map(|normal| [normal, 0.0]).collect();
+            extend_basis(&mut motions.basis, scaled);
+        }
+        let noise = 10_f64.powf(-13.0 + 3.0 * rng.f64());
+        let slides = |root: &[f64]| {
+            let slip = 2.0 * rng.f64() - 1.0;
+            [noise * (2.0 * rng.f64() - 1.0) / root[0] - mu * slip.abs(), slip]
+        };
+        let motion: Vec<f64> = motions.root.chunks_exact(2).flat_map(slides).collect();
+        let balance = Balance::of(&contact, motions.clone(), |_| true);
+        let cleared = balance.cleared(motion.clone());
+        let nearest = balance.nearest(&cleared);
+        assert!(nearest <= STOPPED * motions.size(&cleared), "{seed}: {nearest:e}");
+        let moved: Vec<f64> = cleared.iter().zip(&motion).map(|(a, b)| a - b).collect();
+        let rigid = motions.part(&moved);
+        // The sums of motions up to 100 round.
+        let strain = moved.iter().zip(&rigid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(strain <= 1e-13, "{seed}: {strain:e}");
+        assert!(motions.size(&moved) <= 1e3 * noise, "{seed}: {moved:?}");
     }
 }
 
