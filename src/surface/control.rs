@@ -18,11 +18,8 @@ use std::collections::HashMap;
 
 use super::shape::{FaceKind, Values};
 
-/// Share of the centre's function that each corner takes, and each mid node.
-const TO_CORNER: f64 = 1.0 / 16.0;
-const TO_MID: f64 = 1.0 / 8.0;
-/// The share that remains at the centre.
-const REMAINS: f64 = 0.25;
+/// The part of the centre's function that each corner takes. Each mid node takes two of them, and four remain.
+const PART: f64 = 1.0 / 16.0;
 
 /// `α` of a face's edges, if it is covered wholly or in part. A ring that touches its axis counts as covered in part: the
 /// integral of its corner there has the radius in it, and is zero with `α = 0`.
@@ -82,9 +79,9 @@ impl Basis {
             n[mid] *= 1.0 - 2.0 * alpha;
         }
         if let Some((centre, value)) = centre {
-            (0..self.kind.corners()).for_each(|corner| n[corner] += TO_CORNER * value);
-            self.kind.mids().for_each(|(mid, _)| n[mid] += TO_MID * value);
-            n[centre] = REMAINS * value;
+            (0..self.kind.corners()).for_each(|corner| n[corner] += PART * value);
+            self.kind.mids().for_each(|(mid, _)| n[mid] += 2.0 * PART * value);
+            n[centre] = 4.0 * PART * value;
         }
         n
     }
@@ -97,7 +94,7 @@ impl Basis {
         if let Some(centre) = self.centre() {
             let corners: f64 = u[..self.kind.corners()].iter().sum();
             let mids: f64 = self.kind.mids().map(|(mid, _)| u[mid]).sum();
-            u[centre] = (u[centre] - TO_CORNER * corners - TO_MID * mids) / REMAINS;
+            u[centre] = (u[centre] - PART * corners - 2.0 * PART * mids) / (4.0 * PART);
         }
         u
     }
