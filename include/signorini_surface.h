@@ -59,8 +59,8 @@ extern "C" {
 
 /* Slave nodes at rims, with little of the master over them. */
 /**
- * The default. A slave node with less than half of its area over the master gives its row to a
- * node of its own faces; if none can take it, it keeps it. Its area is that on all slave faces
+ * The default. A slave node with less than half of its area over the master gives its row to the
+ * nearest nodes of its faces; if none can take it, it keeps it. Its area is that on all slave faces
  * around it that look the same way. Uniform pressure stays exact, and others are as exact as
  * elsewhere. For dual mortar: nodes against surfaces have no cover, and take the default alone.
  */
@@ -268,11 +268,10 @@ struct signorini_surface_data {
     /** Number of slave nodes without a pair: nothing lies over them, or they are folded. */
     int64_t n_unpaired;
     const int64_t *unpaired;     /**< These nodes. */
-    /**
-     * Number of those whose row is in the pair of a node of their faces, for their little cover.
-     */
+    /** Number of those whose row is in pairs of nodes of their faces, for their little cover. */
     int64_t n_folded;
-    const int64_t *folded; /**< Each of these nodes with that neighbour, 2 entries for each. */
+    /** Each of these nodes with the nearest such neighbour, 2 entries for each. */
+    const int64_t *folded;
     /** Number of slave faces that lie over nothing within the search distance. */
     int64_t n_uncovered;
     const int64_t *uncovered;    /**< These faces. */

@@ -28,8 +28,8 @@ pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// The default. A slave node with less than half of its area over the master gives its row to a
-/// node of its own faces; if none can take it, it keeps it. Its area is that on all slave faces
+/// The default. A slave node with less than half of its area over the master gives its row to the
+/// nearest nodes of its faces; if none can take it, it keeps it. Its area is that on all slave faces
 /// around it that look the same way. Uniform pressure stays exact, and others are as exact as
 /// elsewhere. For dual mortar: nodes against surfaces have no cover, and take the default alone.
 pub const SIGNORINI_RIMS_FOLD: i32 = 0;

@@ -35,9 +35,9 @@ pub struct SignoriniSurfaceData {
     pub n_unpaired: i64,
     /// These nodes.
     pub unpaired: *const i64,
-    /// Number of those whose row is in the pair of a node of their faces, for their little cover.
+    /// Number of those whose row is in pairs of nodes of their faces, for their little cover.
     pub n_folded: i64,
-    /// Each of these nodes with that neighbour, 2 entries for each.
+    /// Each of these nodes with the nearest such neighbour, 2 entries for each.
     pub folded: *const i64,
     /// Number of slave faces that lie over nothing within the search distance.
     pub n_uncovered: i64,

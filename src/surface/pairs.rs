@@ -36,12 +36,12 @@ pub struct SurfacePair {
     pub held: [bool; 3],
 }
 
-/// A slave node with little cover whose row is in that of another one.
+/// A slave node with little cover whose row is in those of others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     /// The node.
     pub node: usize,
-    /// The node of its own faces whose pair has taken in its row.
+    /// The nearest of the nodes of its own faces whose pairs have taken it in: none has more of it.
     pub into: usize,
     /// The distance between them.
     pub distance: f64,

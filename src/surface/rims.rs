@@ -2,14 +2,14 @@
 //!
 //! The area `D_j` of a node falls with a high power of the covered strip, so that `F_j / D_j` is rounding,
 //! and the row holds a node in the air by masters that are far away. Leaving the row out breaks the patch
-//! test. So `D_j d_j` is added to the row of a node of the same face: `Σ ψ_j = 1` stays, and with it the patch
+//! test. So `D_j d_j` is shared out to rows of nodes of the same faces: `Σ ψ_j = 1` stays, and with it the patch
 //! test. A node whose row has gone takes in none, so that no row goes further than one face; one with hardly any
 //! cover may go two.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::mesh::Side;
-use super::pairs::Fold;
+use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;
 use super::symmetry::OnPlanes;
@@ -33,8 +33,12 @@ pub(super) const SAME_COVER: f64 = 1e-6;
 /// carries is too little to be seen.
 const NEXT_BUT_ONE: f64 = 0.02;
 
-/// Folds the rows of nodes with little cover. Each goes to a node of its own faces that keeps its row: that with the
-/// largest area over the square of the distance. One that finds none keeps its own, and may take in others.
+/// A node shares in a row while the least squared distance is more than this part of its own: up to 5 % further away. The
+/// share falls to zero there, so that rows do not jump where one node becomes nearer than another.
+const AS_NEAR: f64 = 0.9;
+
+/// Folds the rows of nodes with little cover: each is shared out to the nearest nodes of its own faces that keep theirs. One
+/// that finds none keeps its own, and takes in others.
 pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
@@ -46,63 +50,57 @@ pub(super) fn fold(
         Rims::Fold if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
         Rims::Fold => LEAST_COVER - SAME_COVER,
     };
-    let mut little: Vec<(usize, f64)> = rows
-        .iter()
-        .map(|(&node, row)| (node, row.cover()))
-        .filter(|(_, cover)| !(*cover >= least))
-        .collect();
+    let covers = rows.iter().map(|(&node, row)| (node, row.cover()));
+    let (homes, mut little): (Vec<_>, Vec<_>) = covers.partition(|(_, cover)| *cover >= least);
     little.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut beside = neighbours(slave, little.iter().map(|(node, _)| *node));
     let next: Vec<usize> = beside.values().flatten().copied().collect();
     for (node, around) in neighbours(slave, next.into_iter()) {
         beside.entry(node).or_insert(around);
     }
-    // The node that each of them goes to; itself, if it keeps its row.
-    let mut homes: HashMap<usize, usize> =
-        little.iter().map(|(node, _)| (*node, usize::MAX)).collect();
+    // Those that keep their rows with their cover, and those that are folded with the nodes around.
+    let mut homes: HashMap<usize, f64> = homes.into_iter().collect();
+    let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
-        let is_home = |other: &usize| {
-            let takes = |home: &usize| home == other && cover < LITTLE_COVER - SAME_COVER;
-            rows.contains_key(other) && homes.get(other).is_none_or(takes)
-        };
-        let best = |among: BTreeSet<usize>| {
-            let homes = among.into_iter().filter(is_home);
-            let ranked = homes.filter_map(|home| {
-                let worth = planes.in_whole_body(home, node)? * rows[&home].area;
-                let away = slave.position(home) - slave.position(node);
-                Some((home, worth / away.norm_squared()))
-            });
-            first_alone(ranked.collect())
-        };
-        let near = || beside[&node].iter().copied();
-        let further = || near().flat_map(|other| beside[&other].iter().copied()).collect();
-        let far = || if cover < NEXT_BUT_ONE { best(further()) } else { None };
-        let home = best(near().collect()).or_else(far);
-        homes.insert(node, home.unwrap_or(node));
+        let may = |own: &f64| *own >= least || cover < LITTLE_COVER - SAME_COVER;
+        let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
+        let near = beside[&node].clone();
+        let further = || near.iter().flat_map(|other| &beside[other]).copied().collect();
+        let far = cover < NEXT_BUT_ONE && !near.iter().any(takes);
+        let around = if far { further() } else { near };
+        if around.iter().any(takes) {
+            gone.insert(node, around);
+        } else {
+            homes.insert(node, cover);
+        }
     }
-    let mut folded: Vec<(usize, usize)> = homes.into_iter().filter(|(a, b)| a != b).collect();
-    folded.sort_unstable();
-    let fold = |(node, into): (usize, usize)| {
+    let fold = |(node, around): (usize, BTreeSet<usize>)| {
+        let keeps = |home: &usize| homes.contains_key(home) && planes.stays(*home, node);
+        let squared = |home| (slave.position(home) - slave.position(node)).norm_squared();
+        // Two nodes may stand at one place.
+        let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
+        let into: Vec<Weight> = around.into_iter().filter(keeps).map(away).collect();
+        let nearest = into.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        let &(nearest, least) = nearest.expect("a folded node has a home");
+        let worth = |(_, away): &Weight| (least / away - AS_NEAR).max(0.0);
+        let sum: f64 = into.iter().map(worth).sum();
         let row = rows.remove(&node).expect("each node is folded once");
-        rows.get_mut(&into).expect("a home keeps its row").take_in(row);
-        let distance = (slave.position(into) - slave.position(node)).norm();
-        Fold { node, into, distance }
+        for home in into.iter().filter(|home| worth(home) > 0.0) {
+            let taking = rows.get_mut(&home.0).expect("a home keeps its row");
+            taking.take_in(&row, worth(home) / sum);
+        }
+        Fold { node, into: nearest, distance: least.sqrt() }
     };
-    folded.into_iter().map(fold).collect()
-}
-
-/// Of homes with what they are worth the best one that is as good as no other, as nodes on the two sides of a plane of
-/// symmetry are: rounding would choose. If there is none, the first of the best.
-fn first_alone(mut ranked: Vec<(usize, f64)>) -> Option<usize> {
-    ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut groups = ranked.chunk_by(|a, b| b.1 >= (1.0 - SAME_COVER) * a.1);
-    let alone = groups.clone().find(|group| matches!(group, [_]));
-    alone.or_else(|| groups.next())?.iter().map(|(home, _)| *home).min()
+    gone.into_iter().map(fold).collect()
 }
 
 /// The other nodes of the slave faces around some nodes.
-fn neighbours(slave: &Side<'_>, nodes: impl Iterator<Item = usize>) -> HashMap<usize, Vec<usize>> {
-    let mut beside: HashMap<usize, Vec<usize>> = nodes.map(|node| (node, Vec::new())).collect();
+fn neighbours(
+    slave: &Side<'_>,
+    nodes: impl Iterator<Item = usize>,
+) -> HashMap<usize, BTreeSet<usize>> {
+    let mut beside: HashMap<usize, BTreeSet<usize>> =
+        nodes.map(|node| (node, BTreeSet::new())).collect();
     for at in 0..slave.count() {
         let nodes = slave.face(at).nodes;
         for node in nodes {

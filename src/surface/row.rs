@@ -31,14 +31,14 @@ impl Row {
         self.area / self.whole
     }
 
-    /// Adds the row of a neighbour.
-    pub(super) fn take_in(&mut self, other: Row) {
-        self.area += other.area;
-        self.whole += other.whole;
-        self.normal += other.normal;
-        self.gap += other.gap;
-        self.slaves.extend(other.slaves);
-        self.masters.extend(other.masters);
+    /// Adds a share of the row of a neighbour.
+    pub(super) fn take_in(&mut self, other: &Row, share: f64) {
+        let part = |(node, weight): &Weight| (*node, share * weight);
+        self.area += share * other.area;
+        self.normal += share * other.normal;
+        self.gap += share * other.gap;
+        self.slaves.extend(other.slaves.iter().map(part));
+        self.masters.extend(other.masters.iter().map(part));
     }
 
     /// The weights of slaves and masters, by node, each set with the sum 1. Weights that are zero but

@@ -38,7 +38,7 @@ impl SurfacePairs {
         let cover = 100.0 * (report.covered_area / report.slave_area);
         let mut found = format!(
             "{pairs} pairs on {cover:.2} % of the slave area; {unpaired} slave nodes without a \
-             pair, {folded} of them in the pair of a neighbour"
+             pair, {folded} of them in pairs of neighbours"
         );
         let furthest = report.folded.iter().max_by(|a, b| a.distance.total_cmp(&b.distance));
         if let Some(fold) = furthest {

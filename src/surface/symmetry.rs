@@ -93,13 +93,10 @@ impl OnPlanes {
         self.axes.get(&node).copied().unwrap_or_default()
     }
 
-    /// How much larger the area of a node is in the whole body. `None` if another one, `from`, stands on a plane that it
-    /// does not stand on: what goes from there would leave the plane.
-    pub(super) fn in_whole_body(&self, node: usize, from: usize) -> Option<f64> {
-        let (own, from) = (self.of(node), self.of(from));
-        let stays = from.iter().zip(own).all(|(from, own)| !from || own);
-        let planes = own.iter().filter(|on| **on).count();
-        stays.then(|| f64::from(1 << planes))
+    /// `true` if a node stands on all planes that another one, `from`, stands on: else what goes from there would leave
+    /// the plane.
+    pub(super) fn stays(&self, node: usize, from: usize) -> bool {
+        self.of(from).into_iter().zip(self.of(node)).all(|(from, own)| !from || own)
     }
 
     /// `true` of a ring that touches its axis.

@@ -240,7 +240,7 @@ fn rims_are_told_by_their_cover() {
             let sum: f64 = found.pairs.iter().map(|pair| pair.area).sum();
             assert!((sum - found.report.covered_area).abs() < 1e-15, "{c}");
             assert!((sum - (3.0 + c)).abs() < 1e-14, "{c}: {sum}");
-            let told = found.summary().ends_with("of a neighbour, at most 1 away (4 in that of 3)");
+            let told = found.summary().ends_with("of neighbours, at most 1 away (4 in that of 3)");
             assert_eq!(told, is, "{}", found.summary());
         }
         if kept {
@@ -258,6 +258,46 @@ fn rims_are_told_by_their_cover() {
 fn cover_is_counted_on_all_faces() {
     for (end, folded) in [(2.0, vec![]), (2.0 - 1e-9, vec![]), (1.9, vec![(2, 1)])] {
         assert_eq!(folds(&over_the_rim(end, Rims::Fold)), folded, "{end}");
+    }
+}
+
+/// The tip of a triangle over the end of a master: with the height 1 and the base 1 the strip of the height `c` has
+/// `c²/2 - c³/3` of the tip's area, and `(1 - (1-c)³)/6` of that of each of the two nodes at the base, wherever above the base
+/// the tip stands. The two share the tip's row: halves if they are as near, all to the nearer one if the other one is 6 %
+/// further away, in between more as it comes nearer, and nowhere in a jump: over a tenth of the squared distance a share grows
+/// at most ten times as fast as that.
+#[test]
+fn the_nearest_nodes_share_a_row() {
+    let c: f64 = 0.4;
+    let (tip, base) = (c * c / 2.0 - c.powi(3) / 3.0, (1.0 - (1.0 - c).powi(3)) / 6.0);
+    let mut before: Option<(f64, f64)> = None;
+    for step in -80..=80 {
+        let x = 1e-3 * f64::from(step);
+        let slave = [[-0.5, 0.0], [0.5, 0.0], [-0.5, -1.0], [0.5, -1.0], [x, 1.0]];
+        let master = [[-2.0, -2.0], [2.0, -2.0], [2.0, c], [-2.0, c]];
+        let nodes: Vec<Point> =
+            [&slave[..], &master].concat().iter().map(|[x, y]| [*x, *y, 0.0]).collect();
+        let faces = [vec![0, 1, 4], vec![0, 2, 3], vec![0, 3, 1]];
+        let found = pair(3, &nodes, [&faces, &[vec![8, 7, 6, 5]]], &with_rims(Rims::Fold)).unwrap();
+        assert_eq!(folds(&found), [(4, usize::from(step > 0))], "{x}");
+        // Areas of the two triangles below: a third of each of one half.
+        let own = [1.0 / 3.0, 1.0 / 6.0].map(|below| below + base);
+        let [left, right] = [0, 1].map(|k| (found.pairs[k].area - own[k]) / tip);
+        assert!((left + right - 1.0).abs() < 1e-13, "{x}: {left} and {right}");
+        let squared = |end: f64| 1.0 + (x - end) * (x - end);
+        let ratio = squared(0.5) / squared(-0.5);
+        if step == 0 {
+            assert!((right - 0.5).abs() < 1e-13, "{right}");
+        }
+        if ratio.max(1.0 / ratio) > 1.06 * 1.06 {
+            assert!((right - f64::from(u8::from(step > 0))).abs() < 1e-13, "{x}: {right}");
+        }
+        if let Some((last, was)) = before {
+            assert!(right > last - 1e-13, "{x}: {last}, then {right}");
+            let change = (1.0 / ratio - 1.0 / was).abs().max((ratio - was).abs());
+            assert!(right - last < 10.0 * change + 1e-13, "{x}: {last}, then {right}");
+        }
+        before = Some((right, ratio));
     }
 }
 

@@ -95,8 +95,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
-    rims: slave nodes with less than half of their area over the master "fold" into a node of their
-    faces, or "keep" pairs of their own; by "node_to_surface" the default alone.
+    rims: slave nodes with less than half of their area over the master "fold" into the nearest
+    nodes of their faces, or "keep" pairs of their own; by "node_to_surface" the default alone.
     axisymmetric: lines in 2D are meridians of bodies of revolution about the axis x = 0; areas are those
     of whole rings, and so must be stiffness and loads.
     slave_shape, master_shape: the true shape of a side, of which its faces are facets, as a Plane, Sphere,
@@ -137,8 +137,8 @@ class SurfacePairs:
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
     coordinates: those given.  slave_faces: the nodes of each slave face.
-    unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the node whose
-    pair has its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
+    unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
+    whose pairs share its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
     that lie over nothing.  beyond: those of them that point at a master beyond the search distance,
     beyond_distances: how far away it is.
     summary: one sentence.  report: numbers and areas of signorini_surface_data, n_unpaired as
