@@ -243,8 +243,7 @@ mod tests {
             let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            let attempt =
-                [Attempt { sweeps: 30, start: Start::Sure, events: 10.0, careful: false }];
+            let attempt = [Attempt { sweeps: 30, start: Start::Sure, events: 10.0 }];
             let candidate = solve(&Call::new(&contact, &settings), &attempt, &mut monitor);
             let holds = candidate.certificate(&contact).holds(settings.tolerance);
             assert!(holds, "seed {seed}: {:?}", candidate.ending);

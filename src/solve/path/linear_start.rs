@@ -37,7 +37,7 @@ pub enum Start {
     Swept,
     /// Sure coordinates: no others share their loads.
     Sure,
-    /// Coordinates of pairs that are pressed on their obstacles and stick.
+    /// Coordinates of pairs that are pressed on their obstacles and stick, where rounding has spoilt the walks before.
     Pressed,
 }
 
@@ -49,22 +49,19 @@ pub struct Attempt {
     pub start: Start,
     /// Events after which it is given up, for each pair.
     pub events: f64,
-    /// True if rounding has spoilt the walks before.
-    pub careful: bool,
 }
 
 impl Attempt {
     /// How far the walk may go with so many pairs.
     pub fn rules(&self, pairs: usize) -> Rules {
         let of = |part: f64| (part * pairs as f64) as usize;
-        let age = if self.careful { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
+        let age = if self.start == Start::Pressed { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
         Rules { most: LEAST.max(of(self.events)), age }
     }
 }
 
-/// A walk that rounding has not spoilt.
 const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
-    Attempt { sweeps, start, events, careful: false }
+    Attempt { sweeps, start, events }
 }
 
 /// Walks on all pairs, from the best iterate of Newton's method or from the end of walks on the pairs in question. The
@@ -76,7 +73,7 @@ pub const ATTEMPTS: [Attempt; 6] = [
     walk(70, Start::Swept, SHORT),
     walk(100, Start::Sure, SURE),
     walk(300, Start::Sure, LONG),
-    Attempt { sweeps: 0, start: Start::Pressed, events: LONG, careful: true },
+    walk(0, Start::Pressed, LONG),
 ];
 
 /// Walks where thresholds are given, so that every start is sure.
