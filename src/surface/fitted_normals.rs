@@ -178,7 +178,7 @@ fn fit(mean: Vector3, places: &[Vector3], is_linear: bool) -> Vector3 {
         let leaning = leaning.into_iter().filter(|_| is_linear && places.len() > FEW);
         let products = flat.into_iter().chain(leaning).map(|(a, b)| product(a, b));
         let columns = [a.clone(), b.clone()].into_iter().chain(products);
-        let columns = columns.map(|column| product(&column, &weights)).collect();
+        let columns = columns.map(|column| product(&column, &weights));
         let slopes = least_squares(columns, &product(&height, &weights));
         normal = unit(normal - slopes[0] * across[0] - slopes[1] * across[1]).unwrap_or(normal);
     }

@@ -29,11 +29,12 @@
 //! Where the factor has no springs, or nothing is held, `s` is multiplied to both sides of the preconditioner,
 //! `s = 1` but across the slip, where it is `(1 + C / k)^-1/2`: so are the springs there, pair by pair.
 
-use super::directions::{Directions, Images, Moved};
+use super::directions::{Directions, LEAST_OF_IMAGE, Moved};
 use super::point::{Equations, Point};
 use super::session::Session;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
+use crate::linalg::least_squares::Columns;
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
@@ -116,7 +117,7 @@ impl<'a> System<'a> {
         let image = |moved: &Moved| -> Vec<f64> {
             self.rows(moved).iter().zip(root).map(|(row, root)| row / root).collect()
         };
-        let images = Images::new(known.iter().map(image));
+        let images = Columns::new(known.iter().map(image), LEAST_OF_IMAGE);
         let (before, mut by_known) = (known.count(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
@@ -131,7 +132,7 @@ impl<'a> System<'a> {
         for (share, taken_out) in shares.iter().zip(&taken_out) {
             by_known.iter_mut().zip(taken_out).for_each(|(sum, part)| *sum -= share * part);
         }
-        let mut all = images.of_directions(by_known);
+        let mut all = images.coefficients(by_known);
         all.extend(shares);
         known.add_shares(&all, &mut sum);
         let inner = self.equations.inner;
