@@ -29,38 +29,16 @@ pub struct Moved {
     pub forces: Vec<f64>,
 }
 
-/// The directions that are kept.
-#[derive(Default)]
-pub struct Directions(Vec<Moved>);
+/// Forgets the oldest directions.
+pub fn forget(directions: &mut Vec<Moved>) {
+    let most = directions.first().map_or(0, |moved| most_kept(moved.z.len()));
+    directions.drain(..directions.len().saturating_sub(most));
+}
 
-impl Directions {
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-
-    pub fn count(&self) -> usize {
-        self.0.len()
-    }
-
-    pub fn add(&mut self, moved: Moved) {
-        self.0.push(moved);
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = &Moved> {
-        self.0.iter()
-    }
-
-    /// Forgets the oldest ones.
-    pub fn forget(&mut self) {
-        let most = self.0.first().map_or(0, |moved| most_kept(moved.z.len()));
-        self.0.drain(..self.0.len().saturating_sub(most));
-    }
-
-    /// Adds a share of each of them to a change of all unknowns.
-    pub fn add_shares(&self, shares: &[f64], sum: &mut Moved) {
-        for (share, moved) in shares.iter().zip(&self.0).filter(|(share, _)| **share != 0.0) {
-            sum.z.iter_mut().zip(&moved.z).for_each(|(sum, part)| *sum += share * part);
-            sum.forces.iter_mut().zip(&moved.forces).for_each(|(sum, part)| *sum += share * part);
-        }
+/// Adds a share of each direction to a change of all unknowns.
+pub fn add_shares(directions: &[Moved], shares: &[f64], sum: &mut Moved) {
+    for (share, moved) in shares.iter().zip(directions).filter(|(share, _)| **share != 0.0) {
+        sum.z.iter_mut().zip(&moved.z).for_each(|(sum, part)| *sum += share * part);
+        sum.forces.iter_mut().zip(&moved.forces).for_each(|(sum, part)| *sum += share * part);
     }
 }

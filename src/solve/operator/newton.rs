@@ -1,6 +1,6 @@
 //! Newton's method on an operator: its steps by GMRES.
 
-use super::directions::{Directions, MOST_DIRECTIONS};
+use super::directions::{MOST_DIRECTIONS, Moved};
 use super::point::{Equations, Point};
 use super::session::Session;
 use super::system::{Step, System, changed};
@@ -39,7 +39,7 @@ pub fn solve(
     let goal =
         Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: FULL_STEPS };
     let is_followed = bodies.follows_residuals();
-    let mut newton = Newton { equations, bodies, known: Directions::default() };
+    let mut newton = Newton { equations, bodies, known: Vec::new() };
     let mut outcome = unfailed(descend(&mut newton, point, goal, monitor))?;
     if !is_followed {
         return Ok(outcome);
@@ -80,7 +80,8 @@ pub fn improve(best: &mut Outcome, next: Outcome) -> bool {
 struct Newton<'n, 'b> {
     equations: &'n Equations<'n>,
     bodies: &'n mut Session<'b>,
-    known: Directions,
+    /// Directions of the systems so far.
+    known: Vec<Moved>,
 }
 
 impl NormalMap for Newton<'_, '_> {

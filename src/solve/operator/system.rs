@@ -29,7 +29,7 @@
 //! Where the factor has no springs, or nothing is held, `s` is multiplied to both sides of the preconditioner,
 //! `s = 1` but across the slip, where it is `(1 + C / k)^-1/2`: so are the springs there, pair by pair.
 
-use super::directions::{Directions, LEAST_OF_IMAGE, Moved};
+use super::directions::{LEAST_OF_IMAGE, Moved, add_shares, forget};
 use super::point::{Equations, Point};
 use super::session::Session;
 use crate::law::{Linearised, Plane, Vector, ellipse};
@@ -97,7 +97,7 @@ impl<'a> System<'a> {
         &self,
         bodies: &mut Session<'_>,
         (forcing, most): (f64, usize),
-        known: &mut Directions,
+        known: &mut Vec<Moved>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Step, Ending> {
         let first = self.first;
@@ -118,7 +118,7 @@ impl<'a> System<'a> {
             self.rows(moved).iter().zip(root).map(|(row, root)| row / root).collect()
         };
         let images = Columns::new(known.iter().map(image), LEAST_OF_IMAGE);
-        let (before, mut by_known) = (known.count(), images.take_out(&mut right));
+        let (before, mut by_known) = (known.len(), images.take_out(&mut right));
         let mut taken_out = Vec::new();
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
             let mut all = vec![0.0; first];
@@ -126,7 +126,7 @@ impl<'a> System<'a> {
             let moved = self.moved_by(bodies, &all, monitor)?;
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
-            known.add(moved);
+            known.push(moved);
             Ok::<_, Ending>(row)
         })?;
         for (share, taken_out) in shares.iter().zip(&taken_out) {
@@ -134,11 +134,11 @@ impl<'a> System<'a> {
         }
         let mut all = images.coefficients(by_known);
         all.extend(shares);
-        known.add_shares(&all, &mut sum);
+        add_shares(known, &all, &mut sum);
         let inner = self.equations.inner;
         let dy = self.coordinates(&sum.z[inner..], &sum.forces[inner - first..]);
-        let left = if known.count() - before < most { 0.0 } else { left / lack };
-        known.forget();
+        let left = if known.len() - before < most { 0.0 } else { left / lack };
+        forget(known);
         Ok(Step { moved: sum, dy, left })
     }
 
