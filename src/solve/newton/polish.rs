@@ -11,7 +11,7 @@
 use super::descent::{AIM, PATIENCE};
 use super::iteration::CHORD;
 use crate::certificate::eta_of;
-use crate::law::{Contact, Linearised, Piece, Slopes};
+use crate::law::{Contact, Linearised, Piece};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
@@ -229,12 +229,11 @@ impl<'e, 'm> Newton<'e, 'm> {
     }
 
     /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it. It serves on its pieces
-    /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives have changed by rounding only: in
-    /// the plane they do not change.
+    /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives are the same, as in the plane.
     fn factor(&mut self, pieces: Vec<Piece>, pairs: Vec<Linearised>) -> Option<&mut CachedFactor> {
         let (equations, is_good) = (self.equations, self.is_good);
         let serves = |kept: &CachedFactor| {
-            kept.pieces == pieces && (is_good || are_same(kept.system.pairs(), &pairs))
+            kept.pieces == pieces && (is_good || kept.system.pairs() == pairs)
         };
         if !self.kept.as_ref().is_some_and(serves) {
             self.factorisations += 1;
@@ -246,17 +245,4 @@ impl<'e, 'm> Newton<'e, 'm> {
         }
         self.kept.as_mut()
     }
-}
-
-/// True if the derivatives of the pairs are the same at two places up to rounding.
-fn are_same(pairs: &[Linearised], others: &[Linearised]) -> bool {
-    let entries = |pair: &Linearised| {
-        let Slopes { drag, motion, .. } = pair.slopes;
-        [drag, motion[0], motion[1]]
-    };
-    let mut places = pairs.iter().zip(others).flat_map(|(one, other)| {
-        let (one, other) = (entries(one), entries(other));
-        one.into_iter().flatten().zip(other.into_iter().flatten())
-    });
-    places.all(|(one, other)| (one - other).abs() <= 2.0 * ROUNDING_OF_ETA * one.abs().max(1.0))
 }
