@@ -74,8 +74,7 @@ impl Model {
         order: Option<&[usize]>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
-        let full_space = monitor.wants_full_space();
-        let reserve = monitor.reserve();
+        let Monitor { full_space, reserve, .. } = *monitor;
         let ask = &mut |share, memory| monitor.reducing(share, memory);
         let control = Control { order, full_space, reserve, ask };
         let reduction = Box::new(SparseReduction::controlled(matrix, fixed, pairs, control)?);

@@ -50,7 +50,8 @@ pub struct Monitor<'a> {
     begin: Instant,
     time_limit: f64,
     memory_limit: u64,
-    full_space: bool,
+    /// `true` if a sparse matrix is to be left uncondensed.
+    pub(crate) full_space: bool,
     max_iterations: u64,
     iterations: u64,
     eta: f64,
@@ -61,7 +62,8 @@ pub struct Monitor<'a> {
     progress: Option<&'a mut ProgressFn<'a>>,
     /// True once the callback has cancelled: it is not asked again.
     is_cancelled: bool,
-    reserve: fn(u64) -> bool,
+    /// Obtains so many bytes for a work before it begins; `false`: the system refuses them.
+    pub(crate) reserve: fn(u64) -> bool,
 }
 
 impl<'a> Monitor<'a> {
@@ -85,21 +87,6 @@ impl<'a> Monitor<'a> {
             is_cancelled: false,
             reserve: |_| true,
         }
-    }
-
-    /// This monitor with what obtains so many bytes for a work before it begins; `false`: the system refuses them.
-    pub(crate) fn with_reserve(self, reserve: fn(u64) -> bool) -> Self {
-        Monitor { reserve, ..self }
-    }
-
-    /// What obtains memory for a work before it begins.
-    pub(crate) fn reserve(&self) -> fn(u64) -> bool {
-        self.reserve
-    }
-
-    /// `true` if a sparse matrix is to be left uncondensed.
-    pub(crate) fn wants_full_space(&self) -> bool {
-        self.full_space
     }
 
     /// Sweeps, pivots or linear systems done so far.

@@ -163,7 +163,7 @@ impl Block<'_> {
                 }
             }
         });
-        let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.into_past());
+        let past = lanes.pop().filter(|_| goes_on).map(|lane| lane.series.past);
         let Some(((_, case), code, message)) = told else { return (0, past) };
         // A call with one case needs no number of it.
         remember(if cases == 1 { message } else { message.in_case(case) });
@@ -179,7 +179,7 @@ impl Block<'_> {
             let series = Series::after(model, past.unwrap_or_else(Past::of_none));
             return vec![Lane::new(0..cases, series)];
         }
-        let alone = received.has_callback() || model.is_matrix_free();
+        let alone = received.progress.is_some() || model.is_matrix_free();
         let count = if alone { 1 } else { received.threads.min(cases) };
         let begin = |lane: usize| lane * cases / count;
         (0..count)

@@ -135,7 +135,7 @@ pub(super) struct ParsedSettings {
     pub(super) warm_start: WarmStart,
     /// At least 1.
     pub(super) threads: usize,
-    progress: SignoriniProgressFn,
+    pub(super) progress: SignoriniProgressFn,
     user: *mut c_void,
 }
 
@@ -207,24 +207,15 @@ impl SignoriniSettings {
 }
 
 impl ParsedSettings {
-    /// True if the caller wants to be told of progress.
-    pub(super) fn has_callback(&self) -> bool {
-        self.progress.is_some()
-    }
-
-    /// True if a call with one case starts from what the caller gives.
-    pub(super) fn starts_from_given(&self) -> bool {
-        self.warm_start == WarmStart::Given
-    }
-
     /// Does work that the settings limit, the caller's callback watches, and the caller's number of
     /// threads share.
     pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
         threads::with_threads(self.threads, 0, || {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-            let monitor = Monitor::new(&self.settings, progress);
-            work(&mut monitor.with_reserve(reserve::want_estimate))
+            let mut monitor = Monitor::new(&self.settings, progress);
+            monitor.reserve = reserve::want_estimate;
+            work(&mut monitor)
         })
     }
 

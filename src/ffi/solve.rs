@@ -8,7 +8,7 @@ use super::extra::SignoriniExtra;
 use super::guard::{self, Failure};
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
-use super::settings::SignoriniSettings;
+use super::settings::{SignoriniSettings, WarmStart};
 use super::status::remember_result;
 use crate::error::Argument;
 use crate::problem::ContactProblem;
@@ -74,7 +74,8 @@ pub unsafe extern "C" fn signorini_solve(
         };
         let n = data.dim * data.pairs;
         guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;
-        let start = received.starts_from_given().then(|| outputs.d.read());
+        let is_given = received.warm_start == WarmStart::Given;
+        let start = is_given.then(|| outputs.d.read());
         let solved = received.monitored(|monitor| {
             let problem = ContactProblem::new(data)?;
             solve(&problem, &received.settings, start.as_deref(), monitor)

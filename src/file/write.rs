@@ -47,7 +47,7 @@ pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) ->
 /// # Errors
 /// As [`write()`].
 pub fn write_lcp(path: &Path, lcp: &Lcp<'_>, remark: Option<&str>) -> Result<(), Error> {
-    let (n, covering) = (lcp.size(), lcp.covering_vector());
+    let (n, covering) = (lcp.size(), lcp.covering);
     let columns: Vec<_> = [lcp.q()].into_iter().chain(covering).map(<[f64]>::to_vec).collect();
     let names = format!("M ({n}), q{}", if covering.is_some() { ", cover" } else { "" });
     save(path, ("lcp", remark, &names), n, |j| lcp.column(j), &columns)

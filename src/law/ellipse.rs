@@ -62,7 +62,8 @@ pub struct Ellipse {
     turn: Plane,
     /// `c`.
     half_axes: [f64; 2],
-    rule: Rule,
+    /// Along what the pair slips.
+    pub rule: Rule,
 }
 
 /// The point of an ellipse that is nearest to a force, in the axes.
@@ -87,11 +88,6 @@ impl Ellipse {
         let (sin, cos) = angle.sin_cos();
         let half_axes = mu.map(|coefficient| coefficient / mu[0].max(mu[1]));
         Ellipse { turn: [[cos, sin], [-sin, cos]], half_axes, rule }
-    }
-
-    /// Along what the pair slips.
-    pub fn rule(&self) -> Rule {
-        self.rule
     }
 
     /// `diag(c) v`.

@@ -175,7 +175,7 @@ impl EnclosedPiece {
         };
         let disc = self.disc();
         let inverse = inverse(&disc);
-        match ellipse.rule() {
+        match ellipse.rule {
             Rule::Associated => [inverse, transposed(&disc), transposed(&inverse)],
             Rule::Collinear => [inverse, inverse, disc],
         }

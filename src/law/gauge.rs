@@ -44,7 +44,7 @@ impl PairLaw {
 
     /// Returns `true` if the pair has an ellipse and slips along its friction all the same.
     pub fn is_collinear(&self) -> bool {
-        self.ellipse.as_ref().is_some_and(|ellipse| ellipse.rule() == Rule::Collinear)
+        self.ellipse.as_ref().is_some_and(|ellipse| ellipse.rule == Rule::Collinear)
     }
 
     /// The friction of a slip whose trial force is `t`, under the bound `g`; `t` becomes it.

@@ -28,7 +28,8 @@ const SPARE: f64 = 8.0;
 /// A matrix with its factor.
 pub struct Definite {
     factor: Factor,
-    least: f64,
+    /// Not above any `x . A x / |x|²`.
+    pub least: f64,
 }
 
 impl Definite {
@@ -55,11 +56,6 @@ impl Definite {
     /// Overwrites a right-hand side with the approximate solution.
     pub fn solve(&mut self, rhs: &mut [f64]) {
         self.factor.solve(rhs);
-    }
-
-    /// Not above any `x . A x / |x|²`.
-    pub fn least(&self) -> f64 {
-        self.least
     }
 }
 
@@ -137,7 +133,7 @@ mod tests {
                     }
                 }
             };
-            let bound = Definite::new(n, fill, &mut || true).expect("it is definite").least();
+            let bound = Definite::new(n, fill, &mut || true).expect("it is definite").least;
             let exact = 4.0 * (std::f64::consts::PI / (2.0 * (n as f64 + 1.0))).sin().powi(2);
             assert!(bound <= exact && bound > 0.04 * exact, "{n}: {bound:e}, {exact:e}");
         }

@@ -14,8 +14,10 @@ use super::watched::{GoesOn, filled};
 /// complement.
 #[derive(Debug)]
 pub struct Elimination {
-    dropped: Vec<usize>,
-    kept: Vec<usize>,
+    /// The components that are eliminated.
+    pub dropped: Vec<usize>,
+    /// The components that are kept, in the order of [`Self::schur`].
+    pub kept: Vec<usize>,
     lower: Columns,
     half: Columns,
     schur: Vec<f64>,
@@ -64,16 +66,6 @@ impl Elimination {
         }
         dense::subtract_coupling(&mut schur, lower.as_ref(), half.as_mut(), goes_on)?;
         Some(Elimination { dropped, kept, lower, half, schur })
-    }
-
-    /// The components that are eliminated.
-    pub fn dropped(&self) -> &[usize] {
-        &self.dropped
-    }
-
-    /// The components that are kept, in the order of [`Self::schur`].
-    pub fn kept(&self) -> &[usize] {
-        &self.kept
     }
 
     /// The matrix `K_CC - X Xᵀ` of what is kept.

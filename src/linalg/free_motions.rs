@@ -87,7 +87,7 @@ pub fn settle(
     let Some(factor) = PivotedCholesky::within(size, SUSPICIOUS_PIVOT, entry, goes_on) else {
         return Ok(false);
     };
-    if factor.dependent().is_empty() {
+    if factor.dependent.is_empty() {
         return Ok(false);
     }
     for j in 0..size {
@@ -158,9 +158,9 @@ fn candidates(
     let size = root.len();
     // Takes away the forces, scaled, on the independent components.
     let correct = |scaled: &mut [f64], forces: &dyn Fn(usize) -> f64| {
-        let mut y: Vec<f64> = factor.independent().iter().map(|&i| forces(i)).collect();
+        let mut y: Vec<f64> = factor.independent.iter().map(|&i| forces(i)).collect();
         factor.solve(&mut y);
-        factor.independent().iter().zip(&y).for_each(|(&i, y)| scaled[i] -= y);
+        factor.independent.iter().zip(&y).for_each(|(&i, y)| scaled[i] -= y);
     };
     let candidate = |&dependent: &usize| {
         let mut scaled = vec![0.0; size];
@@ -173,7 +173,7 @@ fn candidates(
         }
         Some(scaled)
     };
-    factor.dependent().iter().map(candidate).collect()
+    factor.dependent.iter().map(candidate).collect()
 }
 
 /// The space of the candidates by directions of stationary energy; `None` where `goes_on` says no.

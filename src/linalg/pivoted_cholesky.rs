@@ -15,8 +15,10 @@ use super::watched::{BLOCK, GoesOn, filled, lower_triangle};
 /// them.
 pub struct PivotedCholesky {
     lower: Columns,
-    independent: Vec<usize>,
-    dependent: Vec<usize>,
+    /// Independent rows, in the order of the factor.
+    pub independent: Vec<usize>,
+    /// Rows that depend on the independent ones.
+    pub dependent: Vec<usize>,
 }
 
 impl PivotedCholesky {
@@ -61,16 +63,6 @@ impl PivotedCholesky {
             independent: order[..rank].iter().map(|&i| rows[i]).collect(),
             dependent,
         })
-    }
-
-    /// Independent rows, in the order of the factor.
-    pub fn independent(&self) -> &[usize] {
-        &self.independent
-    }
-
-    /// Rows that depend on the independent ones.
-    pub fn dependent(&self) -> &[usize] {
-        &self.dependent
     }
 
     /// Overwrites `y`, in the order of [`Self::independent`], with `A⁻¹ y` on these rows.

@@ -29,7 +29,8 @@ pub enum Starts<'a> {
 /// and so may the choice among several solutions; the same cases in the same order give the same bits.
 pub struct Series<'m> {
     model: &'m Model,
-    past: Past,
+    /// The results that further cases may use.
+    pub(crate) past: Past,
 }
 
 /// The results that the cases of a series leave for the next ones.
@@ -59,11 +60,6 @@ impl<'m> Series<'m> {
     /// A series of so many cases; one stands alone.
     pub(crate) fn of(model: &'m Model, cases: usize) -> Self {
         Self::after(model, if cases > 1 { Past::of_none() } else { Past::default() })
-    }
-
-    /// The results that further cases may use.
-    pub(crate) fn into_past(self) -> Past {
-        self.past
     }
 
     /// Solves the next load cases, each with budgets of its own. Their loads are condensed in blocks of 32, so that

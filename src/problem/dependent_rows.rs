@@ -22,7 +22,7 @@ use crate::linalg::vector::{largest_of, norm_inf};
 pub struct Dependence {
     dim: usize,
     /// `C`.
-    to_relative: Csc,
+    pub(crate) to_relative: Csc,
     /// `Zᵀ`.
     from_relative: Csc,
     /// A row for each displacement, a column for each fixed degree of freedom.
@@ -49,11 +49,6 @@ impl Dependence {
             of_fixed: from_entries((shape.0, fixed), of_fixed.into_iter())?,
             dependent_pairs,
         })
-    }
-
-    /// `C`.
-    pub(crate) fn to_relative(&self) -> &Csc {
-        &self.to_relative
     }
 
     /// Pairs whose rows follow from those of others, or from supports.
@@ -93,12 +88,15 @@ impl Dependence {
 /// The relation of rows that depend on each other.
 #[derive(Clone, Debug)]
 pub struct DependentRows<'a> {
-    dependence: &'a Dependence,
-    stiffness: Matrix<'a>,
-    load: &'a [f64],
+    /// `C` and `Z`.
+    pub(crate) dependence: &'a Dependence,
+    /// `K`.
+    pub(crate) stiffness: Matrix<'a>,
+    /// `f`.
+    pub(super) load: &'a [f64],
     offset: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
-    units: Vec<f64>,
+    pub(crate) units: Vec<f64>,
     /// `Zᵀ f`, and what drives the offsets.
     relative_load: Vec<f64>,
 }
@@ -119,21 +117,6 @@ impl<'a> DependentRows<'a> {
         DependentRows { dependence, stiffness, load, offset, units, relative_load }
     }
 
-    /// `C` and `Z`.
-    pub(crate) fn dependence(&self) -> &'a Dependence {
-        self.dependence
-    }
-
-    /// `K`.
-    pub(crate) fn stiffness(&self) -> Matrix<'a> {
-        self.stiffness
-    }
-
-    /// `f`.
-    pub(super) fn variable_load(&self) -> &'a [f64] {
-        self.load
-    }
-
     /// `C z + o`.
     pub(crate) fn relative(&self, variables: &[f64]) -> Vec<f64> {
         let mut d = self.dependence.relative(variables);
@@ -148,11 +131,6 @@ impl<'a> DependentRows<'a> {
         let internal = self.stiffness.product(variables);
         left.iter_mut().zip(internal).for_each(|(left, internal)| *left -= internal);
         left
-    }
-
-    /// Units of force per length, one for each component.
-    pub(crate) fn units(&self) -> &[f64] {
-        &self.units
     }
 }
 
@@ -188,10 +166,6 @@ impl Relation for DependentRows<'_> {
 
     fn load(&self) -> &[f64] {
         &self.relative_load
-    }
-
-    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
-        None
     }
 
     /// `Zᵀ (K z - f - Cᵀ F)` with `z = Z d`, and the unit of the pair times `d - C z - o`, which is across it.

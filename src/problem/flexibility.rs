@@ -174,10 +174,6 @@ impl Relation for Flexibility<'_> {
         &self.load
     }
 
-    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
-        None
-    }
-
     /// The units times `d - q - W F`, in twice the precision and rounded once.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let (caused, lost): (Vec<f64>, Vec<f64>) =

@@ -46,7 +46,7 @@ impl<'p> FreeBlock<'p> {
 
     /// Rows that depend on the others.
     pub fn dependent(&self) -> impl Iterator<Item = usize> {
-        self.factor.dependent().iter().map(|&i| self.rows[i])
+        self.factor.dependent.iter().map(|&i| self.rows[i])
     }
 
     /// Operations of [`Self::schur_complement`] on so many rows.
@@ -66,7 +66,7 @@ impl<'p> FreeBlock<'p> {
 
     /// Adds to the independent rows of `d` what makes `K d = load` there, given `K d - load`.
     fn correct(&self, excess: &[f64], d: &mut [f64]) {
-        let rows = self.factor.independent();
+        let rows = &self.factor.independent;
         let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * excess[self.rows[i]]).collect();
         self.factor.solve(&mut y);
         for (&i, y) in rows.iter().zip(&y) {
@@ -94,7 +94,7 @@ impl<'p> FreeBlock<'p> {
     /// A basis of the motions that `K` does not resist. Each moves one dependent component by its
     /// `unit^-1/2`.
     pub fn null_vectors(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.factor.dependent().iter().map(|&i| {
+        self.factor.dependent.iter().map(|&i| {
             let mut motion = vec![0.0; self.matrix.size()];
             motion[self.rows[i]] = self.scale[i];
             self.follow(&mut motion);

@@ -15,7 +15,8 @@ use crate::linalg::vector::{NormSum, first_not_finite, largest_of, norm};
 pub struct Lcp<'a> {
     matrix: Matrix<'a>,
     q: &'a [f64],
-    covering: Option<&'a [f64]>,
+    /// The covering vector, `None` for ones.
+    pub(crate) covering: Option<&'a [f64]>,
 }
 
 impl<'a> Lcp<'a> {
@@ -78,11 +79,6 @@ impl<'a> Lcp<'a> {
     /// Entry `i` of the covering vector.
     pub fn covering(&self, i: usize) -> f64 {
         self.covering.map_or(1.0, |covering| covering[i])
-    }
-
-    /// The covering vector, `None` for ones.
-    pub(crate) fn covering_vector(&self) -> Option<&'a [f64]> {
-        self.covering
     }
 
     /// `M z`.

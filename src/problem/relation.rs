@@ -29,7 +29,9 @@ pub trait Relation {
 
     /// The contact force that `d + low` determines, rounded once; `None` if it determines none. `low` is
     /// empty, or what rounding to doubles has left out of `d`; `terms` is [`Self::magnitude`] of `|d|`.
-    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>>;
+    fn force(&self, _d: &[f64], _low: &[f64], _terms: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
 
     /// How far `(d, F)` is from equilibrium, a force for each component: zero if the relation holds.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64>;

@@ -158,10 +158,6 @@ impl Relation for MatrixFree<'_> {
         self.load
     }
 
-    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
-        None
-    }
-
     fn residual(&self, d: &[f64], _: &[f64]) -> Vec<f64> {
         vec![f64::INFINITY; d.len()]
     }

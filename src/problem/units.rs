@@ -163,9 +163,9 @@ impl ChangesUnits for DependentRows<'_> {
     type On<'b> = DependentRows<'b>;
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
-        let matrix = dense(&self.stiffness(), units.stiffness())?;
-        let (load, offset) = (units.forces(self.variable_load())?, units.lengths(self.offset())?);
-        Some(work(DependentRows::new(self.dependence(), (&matrix, &load), &offset)))
+        let matrix = dense(&self.stiffness, units.stiffness())?;
+        let (load, offset) = (units.forces(self.load)?, units.lengths(self.offset())?);
+        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset)))
     }
 }
 

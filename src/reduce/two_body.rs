@@ -84,7 +84,7 @@ impl TwoBodyReduction {
             || Error::invalid(Argument::Matrix, "K_A + K_B is not positive semi-definite");
         let sum = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on);
         let sum = sum.ok_or_else(not_semidefinite)?;
-        if let Some(&free) = sum.dependent().first() {
+        if let Some(&free) = sum.dependent.first() {
             return Err(Error::invalid(
                 Argument::Matrix,
                 format!("neither body resists a common motion of component {}", index(free)),
@@ -109,7 +109,7 @@ impl TwoBodyReduction {
 
     /// `(K_A + K_B)⁻¹ b`.
     fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let rows = self.sum.independent();
+        let rows = &self.sum.independent;
         let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * b[i]).collect();
         self.sum.solve(&mut y);
         let mut x = vec![0.0; self.size];

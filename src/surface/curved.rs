@@ -27,7 +27,8 @@ pub(super) struct Curved {
     centre: Local,
     /// How much the derivatives change from the middle to a corner, relative to those in the middle.
     change: f64,
-    lean: f64,
+    /// The largest slope against the plane at a corner.
+    pub(super) lean: f64,
 }
 
 /// The second coordinate of lines: their own, which is zero on them.
@@ -134,11 +135,6 @@ impl Curved {
     /// middle, half as far as that of a bilinear face.
     pub(super) fn distortion(&self) -> f64 {
         2.0 * self.change
-    }
-
-    /// The largest slope against the plane at a corner.
-    pub(super) fn lean(&self) -> f64 {
-        self.lean
     }
 }
 

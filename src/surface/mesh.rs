@@ -48,7 +48,7 @@ pub(super) struct Side<'a> {
     pub(super) faces: Faces<'a>,
     is_axisymmetric: bool,
     /// Coordinates are multiplied by this power of two, so that they are below 1 whatever the host's unit is.
-    scale: f64,
+    pub(super) scale: f64,
 }
 
 impl<'a> Side<'a> {
@@ -83,11 +83,6 @@ impl<'a> Side<'a> {
     /// A length of the host in the unit of the pairing.
     pub(super) fn inside(&self, length: f64) -> f64 {
         self.scale * length
-    }
-
-    /// What lengths of the host are multiplied by.
-    pub(super) fn scale(&self) -> f64 {
-        self.scale
     }
 
     /// The host's coordinates of all nodes of faces.

@@ -162,7 +162,7 @@ impl<'a> Flat<'a> {
     /// The largest slope that warp or curvature adds to that of the middle.
     pub(super) fn warp(&self) -> f64 {
         match &self.curved {
-            Some(curved) => curved.lean(),
+            Some(curved) => curved.lean,
             None => self.corners.warp(),
         }
     }

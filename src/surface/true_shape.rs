@@ -67,7 +67,7 @@ impl<'a> TrueSides<'a> {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
                 };
-                let shape = shape.check(dim, side.scale()).map_err(refuse)?;
+                let shape = shape.check(dim, side.scale).map_err(refuse)?;
                 is_near(side, &shape).map_err(refuse)?;
                 Ok(TrueSide::Exact(shape))
             }

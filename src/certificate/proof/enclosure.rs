@@ -44,7 +44,7 @@ pub fn enclose(
     }
     match solver {
         Solver::Definite(definite) => {
-            let radius = (length_up(&lack) / definite.least()).next_up();
+            let radius = (length_up(&lack) / definite.least).next_up();
             let radii = vec![radius; system.unknowns.len()];
             Neighbourhood::new(system, &force, &v, radius).enclosure(&v, &radii)
         }

@@ -24,7 +24,7 @@ impl SparseCholesky {
 
     /// Bytes of a factorisation, with those of the matrix.
     pub fn bytes(&self) -> u64 {
-        self.0.bytes()
+        self.0.bytes
     }
 
     /// Factorises a matrix of the pattern that must be definite; otherwise a motion says why it is not.

@@ -11,7 +11,8 @@ use crate::workers;
 pub struct Plan {
     pub(super) structure: Structure,
     pub(super) schedule: Schedule,
-    bytes: u64,
+    /// Bytes of the factorisation, with those of the matrix.
+    pub bytes: u64,
 }
 
 impl Plan {
@@ -29,10 +30,5 @@ impl Plan {
         let numeric = numeric::bytes(&structure, lower, workers::threads());
         let bytes = numeric + structure.bytes() + schedule.bytes() + matrix;
         Ok(Plan { structure, schedule, bytes: bytes as u64 })
-    }
-
-    /// Bytes of the factorisation, with those of the matrix.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
     }
 }

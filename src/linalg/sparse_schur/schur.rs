@@ -38,7 +38,7 @@ impl SparseSchur {
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let plan = Plan::new(&lower, eliminated, None, progress)?;
-        progress(FactorStep::Needs(plan.bytes()))?;
+        progress(FactorStep::Needs(plan.bytes))?;
         Self::planned(plan, lower, true, progress)
     }
 

@@ -1,6 +1,6 @@
 //! The choices of a host for a reduction: its order of elimination, its threads, and whether to go on.
 
-use crate::error::{Argument, Error, Limit, entry, index};
+use crate::error::{Argument, Error, entry, index};
 use crate::linalg::sparse_schur::{FactorStep, Stopped};
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
@@ -22,18 +22,14 @@ pub struct Control<'a> {
 /// Passes questions on, and keeps the answer that ended the work.
 pub(super) struct Asked<'a, 'b> {
     ask: &'b mut Ask<'a>,
-    memory: u64,
+    /// Bytes that the work needs in all, 0 before they are known.
+    pub(super) memory: u64,
     pub(super) ended: Option<Error>,
 }
 
 impl<'a, 'b> Asked<'a, 'b> {
     pub(super) fn new(ask: &'b mut Ask<'a>) -> Self {
         Asked { ask, memory: 0, ended: None }
-    }
-
-    /// Another work begins, of which nothing is known.
-    pub(super) fn begin_anew(&mut self) {
-        (self.memory, self.ended) = (0, None);
     }
 
     /// Passes a question on.
@@ -49,11 +45,6 @@ impl<'a, 'b> Asked<'a, 'b> {
             self.ended = Some(error);
             Stopped
         })
-    }
-
-    /// `true` if the answer was that memory does not suffice.
-    pub(super) fn lacks_memory(&self) -> bool {
-        matches!(self.ended, Some(Error::Stopped { limit: Limit::Memory, .. }))
     }
 }
 

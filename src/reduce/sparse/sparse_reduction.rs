@@ -7,7 +7,7 @@ use super::general_rows::{GeneralRows, HostDofs, general_rows};
 use super::host_arrays::SparseMatrix;
 use super::messages;
 use super::supports::{self, FixedComponent};
-use crate::error::{Argument, Error, Message};
+use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
@@ -273,15 +273,17 @@ impl Engine {
         if has_room {
             let progress = &mut |step| asked.goes_on(step);
             let plan = Plan::new(&matrix, parts.inner, parts.rank, progress)?;
-            if progress(FactorStep::Needs(plan.bytes())).is_ok() {
+            if progress(FactorStep::Needs(plan.bytes)).is_ok() {
                 // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
                 return SparseSchur::planned(plan, matrix, !parts.own, progress)
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
-            if !(possible && asked.lacks_memory()) {
+            let lacks_memory =
+                matches!(asked.ended, Some(Error::Stopped { limit: Limit::Memory, .. }));
+            if !(possible && lacks_memory) {
                 return Err(Failure::Stopped);
             }
-            asked.begin_anew();
+            (asked.memory, asked.ended) = (0, None);
         }
         let progress = &mut |step| asked.goes_on(step);
         FullSpace::new(matrix, parts.inner, parts.dim, progress)

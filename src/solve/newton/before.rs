@@ -28,7 +28,7 @@ pub fn reduced<'w>(
     whole: &'w Equations<'w>,
     elimination: &Arc<Elimination>,
 ) -> Option<ReducedProblem<'w>> {
-    let mut components = elimination.dropped().iter();
+    let mut components = elimination.dropped.iter();
     let are_free = components.all(|i| whole.laws[i / whole.dim].is_free_when_open());
     are_free.then(|| ReducedProblem::by_elimination(whole, Arc::clone(elimination)))
 }

@@ -129,7 +129,8 @@ impl Search<'_, '_> {
             let of_candidates = Remembered::default();
             let remembered = whole.remembered.map(|_| &of_candidates);
             let equations = Equations { remembered, ..part.equations() };
-            let found = self.on_part(&equations, part.of_kept(&y), monitor);
+            let found =
+                self.on_part(&equations, part.kept().map(|pair| y[pair]).collect(), monitor);
             drop(equations);
             systems += found.systems;
             if found.orientation != 0 {
@@ -145,7 +146,7 @@ impl Search<'_, '_> {
                 if let Some(remembered) = whole.remembered
                     && matches!(ending, Ending::Done | Ending::Stopped(_))
                 {
-                    let elimination = Arc::clone(part.elimination());
+                    let elimination = Arc::clone(&part.elimination);
                     remembered.leave(Kept { elimination, of_candidates });
                 }
                 return Ended { d, force, y, ending, systems, orientation };

@@ -24,7 +24,8 @@ const WORTHWHILE: usize = 24;
 /// The problem of the pairs that are kept.
 pub struct ReducedProblem<'w> {
     whole: &'w Equations<'w>,
-    elimination: Arc<Elimination>,
+    /// The elimination of the open pairs.
+    pub elimination: Arc<Elimination>,
     /// Displacements of the stuck pairs, zero of others.
     stuck: Vec<f64>,
     /// Loads on the open pairs, and what is left on those that are kept.
@@ -77,16 +78,11 @@ impl<'w> ReducedProblem<'w> {
 
     fn by(whole: &'w Equations<'w>, elimination: Arc<Elimination>, stuck: Vec<f64>) -> Self {
         let lack = whole.force(&stuck);
-        let on_open: Vec<f64> = elimination.dropped().iter().map(|&i| -lack[i]).collect();
+        let on_open: Vec<f64> = elimination.dropped.iter().map(|&i| -lack[i]).collect();
         let taken = elimination.transfer(&on_open);
-        let kept = elimination.kept().iter().zip(taken);
+        let kept = elimination.kept.iter().zip(taken);
         let load = kept.map(|(&i, taken)| -lack[i] - taken).collect();
         ReducedProblem { whole, elimination, stuck, on_open, load }
-    }
-
-    /// The elimination of the open pairs.
-    pub fn elimination(&self) -> &Arc<Elimination> {
-        &self.elimination
     }
 
     /// The pairs of some components.
@@ -96,17 +92,12 @@ impl<'w> ReducedProblem<'w> {
 
     /// The pairs that are kept.
     pub fn kept(&self) -> impl Iterator<Item = usize> + '_ {
-        self.pairs(self.elimination.kept())
-    }
-
-    /// The entries of the pairs that are kept, of values that each pair has.
-    pub fn of_kept(&self, y: &[Vector]) -> Vec<Vector> {
-        self.kept().map(|pair| y[pair]).collect()
+        self.pairs(&self.elimination.kept)
     }
 
     /// The components that are kept, of any vector of all components.
     pub fn restrict(&self, values: &[f64]) -> Vec<f64> {
-        self.elimination.kept().iter().map(|&i| values[i]).collect()
+        self.elimination.kept.iter().map(|&i| values[i]).collect()
     }
 
     /// The equations of the pairs that are kept, with the scales that they have in the whole problem.
@@ -136,8 +127,8 @@ impl<'w> ReducedProblem<'w> {
     pub fn expand(&self, on_kept: &[f64]) -> Vec<f64> {
         let mut d = self.stuck.clone();
         let on_open = self.elimination.follow(&self.on_open, on_kept);
-        self.elimination.kept().iter().zip(on_kept).for_each(|(&i, x)| d[i] = *x);
-        self.elimination.dropped().iter().zip(on_open).for_each(|(&i, x)| d[i] = x);
+        self.elimination.kept.iter().zip(on_kept).for_each(|(&i, x)| d[i] = *x);
+        self.elimination.dropped.iter().zip(on_open).for_each(|(&i, x)| d[i] = x);
         d
     }
 
@@ -154,6 +145,6 @@ impl<'w> ReducedProblem<'w> {
     /// Eliminated pairs that are not open at the coordinates `y` of all pairs.
     pub fn closing(&self, y: &[Vector]) -> Vec<usize> {
         let pieces = self.whole.pieces(y);
-        self.pairs(self.elimination.dropped()).filter(|&pair| pieces[pair].closed).collect()
+        self.pairs(&self.elimination.dropped).filter(|&pair| pieces[pair].closed).collect()
     }
 }

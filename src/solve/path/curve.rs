@@ -58,7 +58,8 @@ pub struct Curve<'h> {
     /// Most distance from the predicted place, relative to the step.
     deviation: f64,
     pieces: Vec<Piece>,
-    place: PathPoint,
+    /// Where the curve is.
+    pub place: PathPoint,
     /// Linear systems so far.
     pub systems: u64,
 }
@@ -93,11 +94,6 @@ impl<'h> Curve<'h> {
     pub fn new(homotopy: &'h Homotopy<'h>, start: Vec<Vector>, deviation: f64) -> Self {
         let pieces = homotopy.equations.pieces(&start);
         Curve { homotopy, deviation, pieces, place: PathPoint { y: start, s: 0.0 }, systems: 0 }
-    }
-
-    /// Where the curve is.
-    pub fn place(&self) -> &PathPoint {
-        &self.place
     }
 
     /// Follows the curve to `s = 1`.

@@ -116,8 +116,8 @@ fn follow(
     let homotopy = Homotopy::new(equations, &start);
     let mut curve = Curve::new(&homotopy, start, deviation);
     let mut ended = match curve.follow(monitor) {
-        Ok(()) => newton_from(equations, curve.place().y.clone(), (tolerance, false), monitor),
-        Err(ending) => Ended::at(Point::new(equations, curve.place().y.clone()), ending),
+        Ok(()) => newton_from(equations, curve.place.y.clone(), (tolerance, false), monitor),
+        Err(ending) => Ended::at(Point::new(equations, curve.place.y.clone()), ending),
     };
     ended.systems += curve.systems;
     ended

@@ -174,7 +174,7 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
 fn ended(call: &Call<'_>, walk: &Walk<'_>, end: WalkEnd, monitor: &mut Monitor<'_>) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        WalkEnd::Arrived => return from_pieces(&call.from(&d), walk.pieces(), monitor),
+        WalkEnd::Arrived => return from_pieces(&call.from(&d), &walk.pieces, monitor),
         WalkEnd::Lost => Ending::Stalled(LOST),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.

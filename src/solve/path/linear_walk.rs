@@ -49,7 +49,7 @@ pub struct Walk<'p> {
     size: f64,
     system: Updated<'p>,
     /// The pieces of today.
-    pieces: Vec<Piece>,
+    pub pieces: Vec<Piece>,
     /// `r_0` and `r - r_0`.
     first: Vec<f64>,
     change: Vec<f64>,
@@ -107,7 +107,7 @@ impl<'p> Walk<'p> {
                 return WalkEnd::Stopped(stop);
             }
             let sign = f64::from(self.system.sign());
-            let exit = self.next_exit(sign);
+            let exit = self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step));
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
             let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
             if !step.is_finite() {
@@ -131,11 +131,6 @@ impl<'p> Walk<'p> {
             }
         }
         WalkEnd::Lost
-    }
-
-    /// The first boundary on the way, and whose it is.
-    fn next_exit(&self, sign: f64) -> Option<(usize, PieceExit)> {
-        self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step))
     }
 
     /// The next boundary of each pair that comes to one on the way.
@@ -221,11 +216,6 @@ impl<'p> Walk<'p> {
         let internal = self.equations.matrix.product(&motion);
         let resisted = internal.iter().zip(root).map(|(force, root)| force / root);
         (size > 0.0 && largest_of(resisted) <= SMALL_PIVOT * size).then_some(motion)
-    }
-
-    /// The pieces of today.
-    pub fn pieces(&self) -> &[Piece] {
-        &self.pieces
     }
 
     /// The displacements of today.

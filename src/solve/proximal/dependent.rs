@@ -92,16 +92,16 @@ fn condensed(
     monitor: &mut Monitor<'_>,
 ) -> Result<Result<SparseSchur, Stop>, Error> {
     let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
-    let (stiffness, dependence) = (relation.stiffness(), relation.dependence());
+    let (stiffness, dependence) = (relation.stiffness, relation.dependence);
     let (kept, size) = (dependence.variables(), relation.size());
     let mut entries: Vec<(usize, usize, f64)> = Vec::new();
     for j in 0..kept {
         let below = (j..kept).filter(|&i| i == j || stiffness.at(i, j) != 0.0);
         entries.extend(below.map(|i| (i, j, stiffness.at(i, j))));
     }
-    let rows = transposed(dependence.to_relative()).map_err(memory)?;
+    let rows = transposed(&dependence.to_relative).map_err(memory)?;
     for i in 0..size {
-        let spring = relation.units()[i] / COMPLIANCE;
+        let spring = relation.units[i] / COMPLIANCE;
         let (variables, coefficients) = column(&rows, i);
         for (&j, c) in variables.iter().zip(coefficients) {
             entries.push((kept + i, j, -spring * c));
@@ -135,6 +135,6 @@ fn condensed(
 
 /// The variables of the displacements `start`.
 fn begun(relation: &DependentRows<'_>, start: Option<&[f64]>) -> Vec<f64> {
-    let dependence = relation.dependence();
+    let dependence = relation.dependence;
     start.map_or_else(|| vec![0.0; dependence.variables()], |start| dependence.of_relative(start))
 }

@@ -3,8 +3,9 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, Relation};
+use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Existence, Solution, Solve, Status, Uniqueness};
 
@@ -25,16 +26,9 @@ pub fn step<R: Relation>(
         problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
     };
     let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
-    let problem = ContactProblem::on_checked_matrix(ContactData {
-        dim,
-        pairs: gap.len(),
-        stiffness,
-        ld: d.len().max(1),
-        load,
-        gap: &gap,
-        law: problem.law(),
-        reference_slip: Some(&slip),
-    })?;
+    let relation = Stiffness::new(Matrix::new(d.len(), stiffness, d.len().max(1)), load, dim);
+    let law = problem.law();
+    let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
     solve(&Call::new(&Contact::new(&problem), settings), monitor)
 }
 

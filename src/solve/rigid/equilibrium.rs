@@ -54,7 +54,7 @@ type Proves<'c> = dyn Fn(&[f64]) -> bool + 'c;
 /// The rigid motions of a problem, and the forces that balance them.
 pub struct Balance<'c, R = Stiffness<'c>> {
     contact: &'c Contact<'c, R>,
-    motions: RigidMotions,
+    pub motions: RigidMotions,
     /// The certificate.
     proves: Box<Proves<'c>>,
 }
@@ -78,11 +78,6 @@ impl<'c, R: Relation> Balance<'c, R> {
         proves: impl Fn(&[f64]) -> bool + 'c,
     ) -> Self {
         Balance { contact, motions, proves: Box::new(proves) }
-    }
-
-    /// The motions.
-    pub fn into_motions(self) -> RigidMotions {
-        self.motions
     }
 
     /// The ending of a method along whose motion bodies move away: a proof that no equilibrium exists, if the motion
@@ -275,10 +270,10 @@ fn least_squares(equations: &[(Vec<f64>, f64)], n: usize) -> Option<Vec<f64>> {
     let unit = |i: usize, j: usize| product(told[i], told[j]) / (size[told[i]] * size[told[j]]);
     let gram = PivotedCholesky::new(told.len(), unit)?;
     let own = |i: usize| equations.iter().map(|(row, right)| row[i] * right).sum::<f64>() / size[i];
-    let mut x: Vec<f64> = gram.independent().iter().map(|&k| own(told[k])).collect();
+    let mut x: Vec<f64> = gram.independent.iter().map(|&k| own(told[k])).collect();
     gram.solve(&mut x);
     let mut all = vec![0.0; n];
-    for (&k, x) in gram.independent().iter().zip(&x) {
+    for (&k, x) in gram.independent.iter().zip(&x) {
         all[told[k]] = x / size[told[k]];
     }
     Some(all)

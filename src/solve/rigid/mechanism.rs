@@ -19,10 +19,11 @@ use super::equilibrium::Balance;
 use super::motions::RigidMotions;
 use crate::error::{Error, index};
 use crate::law::Contact;
+use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::MOVING;
 use crate::linalg::vector::{dot, normalise};
 use crate::monitor::Monitor;
-use crate::problem::{ContactData, ContactProblem, Relation, Stiffness};
+use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Call, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
 
@@ -53,7 +54,7 @@ pub fn describe<'c, R: Relation>(
     normalise(&mut proof);
     // If others are not found in time, the motion of the proof stands for all.
     let alone = || RigidMotions::along(contact.problem(), &proof);
-    let motions = balance.map_or_else(alone, Balance::into_motions);
+    let motions = balance.map_or_else(alone, |balance| balance.motions);
     let viscous = Viscous { contact, motions };
     let found = solve.map(|solve| viscous.escape(solve, monitor)).transpose()?.flatten();
     let escape = found.unwrap_or_else(|| viscous.along(&proof));
@@ -105,26 +106,15 @@ impl<R: Relation> Viscous<'_, R> {
         let (matrix, gap) = (self.stiffness(), self.contact.touching_gaps());
         let settings = Settings::default();
         let mut load = problem.relation().load().to_vec();
+        let matrix = Matrix::new(load.len(), &matrix, load.len().max(1));
         let mut d: Option<Vec<f64>> = None;
         for _ in 0..ROUNDS {
-            let viscous = ContactProblem::on_checked_matrix(ContactData {
-                dim: problem.dim(),
-                pairs: problem.pairs(),
-                stiffness: &matrix,
-                ld: load.len().max(1),
-                load: &load,
-                gap: &gap,
-                law: problem.law(),
-                reference_slip: None,
-            })?;
-            let solution = solve(
-                &Call {
-                    contact: &Contact::new(&viscous),
-                    settings: &settings,
-                    start: d.as_deref(),
-                },
-                monitor,
-            )?;
+            let relation = Stiffness::new(matrix, &load, problem.dim());
+            let law = problem.law();
+            let viscous = ContactProblem::with_relation(relation, problem.dim(), &gap, law, None)?;
+            let contact = &Contact::new(&viscous);
+            let call = Call { contact, settings: &settings, start: d.as_deref() };
+            let solution = solve(&call, monitor)?;
             if solution.status != Status::Solved {
                 return Ok(None);
             }
@@ -185,7 +175,7 @@ fn in_words<R: Relation>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::FrictionLaw;
+    use crate::problem::{ContactData, FrictionLaw};
     use crate::solve::solve;
 
     /// A body of two pairs that a spring ties along each direction and nothing holds, under whole-numbered loads.
