@@ -2,7 +2,7 @@
 
 use std::iter::repeat;
 
-use crate::law::{Contact, State, Violation};
+use crate::law::{Contact, State, Violation, natural_sum};
 use crate::linalg::ball::UNIT;
 use crate::linalg::tolerances::{FEW_OPERATIONS, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
@@ -199,14 +199,8 @@ pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
 
 /// [`eta`], on a problem whose laws are worked out.
 pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
-    // Nothing is stored: this runs once for each linear system, and every few sweeps.
-    let mut sum = NormSum::default();
-    let mut residual = [0.0; 3];
-    for (law, d, raw) in contact.each(d, raw) {
-        law.natural_residual(d, raw, &mut residual);
-        residual[..d.len()].iter().for_each(|&e| sum.add(e));
-    }
-    ratio(sum.root(), norm(contact.problem().load()).max(norm(raw)))
+    let size = natural_sum(contact.each(d, raw)).root();
+    ratio(size, norm(contact.problem().load()).max(norm(raw)))
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.

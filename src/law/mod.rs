@@ -72,6 +72,7 @@ pub(crate) use enclosed_piece::{EnclosedPiece, Local};
 pub use fixed_state::FixedState;
 pub use levelled::LevelledTangents;
 pub use natural_map::Violation;
+pub(crate) use natural_map::natural_sum;
 pub use pair_law::{PairLaw, Vector};
 pub use piece::{Boundary, Piece, Tangential};
 pub use planar_piece::{PieceExit, Planar};

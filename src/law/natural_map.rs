@@ -14,6 +14,7 @@
 
 use super::{Ellipse, PairLaw, State, Vector, length};
 use crate::linalg::tolerances::FEW_OPERATIONS;
+use crate::linalg::vector::NormSum;
 
 /// How far a pair is outside the law, in the units of the problem; 0 where it is not.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,6 +36,20 @@ impl Violation {
             cone_excess: self.cone_excess.max(other.cone_excess),
         }
     }
+}
+
+/// The sum for the length of the natural map at the displacements and forces of pairs. Nothing is stored: it is measured for
+/// each linear system, and every few sweeps.
+#[inline]
+pub fn natural_sum<'s>(
+    pairs: impl Iterator<Item = (&'s PairLaw, &'s [f64], &'s [f64])>,
+) -> NormSum {
+    let (mut sum, mut residual) = (NormSum::default(), [0.0; 3]);
+    for (law, d, force) in pairs {
+        law.natural_residual(d, force, &mut residual);
+        residual[..d.len()].iter().for_each(|&e| sum.add(e));
+    }
+    sum
 }
 
 impl PairLaw {

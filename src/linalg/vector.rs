@@ -20,10 +20,14 @@ pub fn stiffness_axes(a: f64, b: f64, c: f64) -> ([f64; 2], [f64; 2]) {
 
 /// Euclidean norm that neither overflows nor underflows on the way; NaN if an entry is.
 pub fn norm(values: &[f64]) -> f64 {
+    norm_of(values.iter().copied())
+}
+
+/// As [`norm`].
+#[inline]
+pub fn norm_of(values: impl Iterator<Item = f64>) -> f64 {
     let mut sum = NormSum::default();
-    for &value in values {
-        sum.add(value);
-    }
+    values.for_each(|value| sum.add(value));
     sum.root()
 }
 

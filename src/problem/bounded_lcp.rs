@@ -3,7 +3,7 @@
 use super::remembered::Remembered;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{NormSum, dot, largest_of, norm};
+use crate::linalg::vector::{dot, largest_of, norm, norm_of};
 
 /// `w = q + M x`, `x >= l`, `w >= 0`, `(x - l) . w = 0`; where a bound is `-inf` the variable is free
 /// and `w = 0`. A view of its arrays.
@@ -48,12 +48,11 @@ impl BoundedLcp<'_> {
     /// diagonal of `M`. Zero at solutions only, if the diagonal is positive; infinite where the forces
     /// overflow.
     pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
-        let mut residual = NormSum::default();
-        for (i, (w, x)) in w.iter().zip(x).enumerate() {
-            // m (x - l) is infinite of a free variable.
-            residual.add(w.min(self.matrix.at(i, i) * (x - self.lower[i])));
-        }
-        let (residual, scale) = (residual.root(), norm(self.q).max(norm(w)));
+        // m (x - l) is infinite of a free variable.
+        let part =
+            |(i, (w, x)): (usize, (&f64, &f64))| w.min(self.matrix.at(i, i) * (x - self.lower[i]));
+        let residual = norm_of(w.iter().zip(x).enumerate().map(part));
+        let scale = norm(self.q).max(norm(w));
         match residual {
             0.0 => 0.0,
             _ if scale.is_finite() => residual / scale,

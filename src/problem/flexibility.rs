@@ -54,7 +54,8 @@ pub struct FlexibilityData<'a> {
 #[derive(Clone, Debug)]
 pub struct Flexibility<'a> {
     form: FlexibilityForm<'a>,
-    free: &'a [f64],
+    /// `q`.
+    pub(crate) free: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
     units: Cow<'a, [f64]>,
     /// Forces of the size that would undo the free displacements, pair by pair.
@@ -142,11 +143,6 @@ impl<'a> Flexibility<'a> {
     /// `W`.
     pub(crate) fn form(&self) -> &FlexibilityForm<'a> {
         &self.form
-    }
-
-    /// `q`.
-    pub(crate) fn free(&self) -> &'a [f64] {
-        self.free
     }
 
     /// Units of force per length, one for each component.

@@ -8,12 +8,13 @@ use crate::linalg::power_of_two::{
 };
 use crate::linalg::simd::{AT_ONCE, vectorised};
 use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{NormSum, first_not_finite, largest_of, norm};
+use crate::linalg::vector::{first_not_finite, largest_of, norm, norm_of};
 
 /// A checked problem, a view of the caller's arrays.
 #[derive(Clone, Copy, Debug)]
 pub struct Lcp<'a> {
-    matrix: Matrix<'a>,
+    /// `M`.
+    pub(crate) matrix: Matrix<'a>,
     q: &'a [f64],
     /// The covering vector, `None` for ones.
     pub(crate) covering: Option<&'a [f64]>,
@@ -64,11 +65,6 @@ impl<'a> Lcp<'a> {
     /// Column `j` of `M`.
     pub fn column(&self, j: usize) -> &'a [f64] {
         self.matrix.column(j)
-    }
-
-    /// `M`.
-    pub(crate) fn matrix(&self) -> Matrix<'a> {
-        self.matrix
     }
 
     /// `q`.
@@ -200,13 +196,11 @@ const LEAST_SCALE: f64 = 1e-280;
 /// `|min(q + M z, m z)|` and `max(|q|, |M z|)` from `q` and `M z`; NaN where a number is NaN.
 fn residual_and_scale((q, product): (&[f64], &[f64]), m: &[f64], z: &[f64]) -> (f64, f64) {
     let (load, inner) = (norm(q), norm(product));
-    let mut residual = NormSum::default();
-    for (((m, q), mz), z) in m.iter().zip(q).zip(product).zip(z) {
-        residual.add((q + mz).min(m * z));
-    }
+    let entries = m.iter().zip(q).zip(product).zip(z);
+    let residual = norm_of(entries.map(|(((m, q), mz), z)| (q + mz).min(m * z)));
     // `max` and `min` would drop a NaN.
     let scale = if inner.is_nan() { inner } else { load.max(inner) };
-    (residual.root(), scale)
+    (residual, scale)
 }
 
 /// Raises numbers to the sizes of others, of which the largest is returned; to be called inside [`vectorised`].

@@ -154,7 +154,7 @@ impl ChangesUnits for Flexibility<'_> {
             }
         };
         let (free, of_components) =
-            (units.lengths(self.free())?, all(self.units(), units.stiffness())?);
+            (units.lengths(self.free)?, all(self.units(), units.stiffness())?);
         Some(work(Flexibility::new(form, &free, of_components)))
     }
 }

@@ -23,12 +23,13 @@ use crate::reduce::rows::Rows;
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
     matrix: Csc,
-    host_size: usize,
+    /// Number of the host's degrees of freedom.
+    pub(super) host_size: usize,
     springs: usize,
     /// Number of entries of `x`.
     unknowns: usize,
     /// The host's degree of freedom of each free unknown.
-    free: Vec<usize>,
+    pub(super) free: Vec<usize>,
 }
 
 /// The columns of `W`, and its entries as they are gathered.
@@ -85,16 +86,6 @@ impl ChangeOfVariables {
             matrix = product(&with_dependents(rows, host_size, dependents)?, &matrix)?;
         }
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
-    }
-
-    /// The host's degree of freedom of each free unknown.
-    pub(super) fn free(&self) -> &[usize] {
-        &self.free
-    }
-
-    /// Number of the host's degrees of freedom.
-    pub(super) fn host_size(&self) -> usize {
-        self.host_size
     }
 
     /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.

@@ -93,7 +93,7 @@ impl SparseReduction {
             variables.transform(host, &mut |step| asked.goes_on(step)).map_err(|failure| {
                 asked.ended.take().unwrap_or_else(|| refused(&variables, own, failure))
             })?;
-        let free = variables.free();
+        let free = &variables.free;
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
         let (rank, reserve) = (rank.as_deref(), control.reserve);
         let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, reserve };
@@ -143,7 +143,7 @@ impl Reduction for SparseReduction {
     }
 
     fn host_size(&self) -> usize {
-        self.variables.host_size()
+        self.variables.host_size
     }
 
     fn fixed_count(&self) -> usize {
@@ -297,7 +297,7 @@ fn refused(variables: &ChangeOfVariables, own: bool, failure: Failure) -> Error 
     let message = match failure {
         Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
         Failure::Stopped => unreachable!("who stops it says why"),
-        Failure::Indefinite(row) => messages::indefinite(variables.free().get(row)),
+        Failure::Indefinite(row) => messages::indefinite(variables.free.get(row)),
         Failure::Negative(x) => messages::negative_energy(&host(&x)),
         Failure::Unclear(x) => messages::unclear_motion(&host(&x), !own),
         Failure::NullVector(x) => messages::free_motion(&host(&x)),

@@ -97,10 +97,10 @@ pub fn lcp(
 ) -> Pivoted {
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
-        matrix: lcp.matrix(),
+        matrix: lcp.matrix,
         q: lcp.q(),
         lower: &zero,
-        symmetric: is_symmetric(&lcp.matrix()),
+        symmetric: is_symmetric(&lcp.matrix),
         remembered: None,
     };
     let measure = |x: &[f64]| {

@@ -120,7 +120,7 @@ fn by_lemke(
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
-    let matrix = lcp.matrix();
+    let matrix = lcp.matrix;
     let scaled = Scaled::new(&matrix, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };

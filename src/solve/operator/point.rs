@@ -2,9 +2,9 @@
 
 use super::session::Session;
 use crate::error::Error;
-use crate::law::{Contact, Piece, Vector};
+use crate::law::{Contact, Piece, Vector, natural_sum};
 use crate::linalg::double_double::two_sum;
-use crate::linalg::vector::{NormSum, norm};
+use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
 use crate::problem::{MatrixFree, StiffnessOperator};
 use crate::solve::result::Ending;
@@ -41,21 +41,14 @@ impl<'a> Equations<'a> {
 
     /// Length of a vector of forces on all unknowns, each in its unit.
     pub fn length(&self, forces: &[f64]) -> f64 {
-        let mut sum = NormSum::default();
-        forces.iter().zip(&self.root).for_each(|(force, root)| sum.add(force / root));
-        sum.root()
+        norm_of(forces.iter().zip(&self.root).map(|(force, root)| force / root))
     }
 
     /// `eta` of displacements of all unknowns with their residual.
     fn eta(&self, x: &[f64], residual: &[f64]) -> f64 {
         let (inner, raw) = residual.split_at(self.inner);
-        let mut sum = NormSum::default();
+        let mut sum = natural_sum(self.contact.each(&x[self.inner..], raw));
         inner.iter().for_each(|&lack| sum.add(lack));
-        let mut natural = [0.0; 3];
-        for (law, d, raw) in self.contact.each(&x[self.inner..], raw) {
-            law.natural_residual(d, raw, &mut natural);
-            natural[..d.len()].iter().for_each(|&e| sum.add(e));
-        }
         sum.root() / self.unit.max(norm(raw))
     }
 

@@ -169,7 +169,7 @@ impl<'p> Walk<'p> {
         let change = self.system.change(&change, &mut monitor.asking()).ok_or(WalkEnd::Lost)?;
         self.pieces[pair] = exit.beyond;
         let singular = change.pivot().abs() < SMALL_PIVOT;
-        let ray = if singular { change.direction().to_vec() } else { Vec::new() };
+        let ray = if singular { change.z.clone() } else { Vec::new() };
         let made = self.system.make(change, &mut monitor.asking());
         let made = made.map(|()| self.system.follow(&mut self.rate));
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 
 use super::before::Before;
 use crate::law::Piece;
-use crate::law::{Contact, Linearised, PairLaw, Vector};
+use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::{NormSum, norm};
+use crate::linalg::vector::{norm, norm_of};
 use crate::problem::{BoundedLcp, Remembered};
 
 /// The equations of some pairs: of a whole problem, or of what is left of one when others are
@@ -156,21 +156,14 @@ impl<'a> Equations<'a> {
 
     /// Length of a vector of forces, each in the unit of its component.
     pub fn length(&self, force: &[f64]) -> f64 {
-        let mut sum = NormSum::default();
-        force.iter().zip(&self.root).for_each(|(force, root)| sum.add(force / root));
-        sum.root()
+        norm_of(force.iter().zip(&self.root).map(|(force, root)| force / root))
     }
 
     /// `eta` of displacements with the force that they need: as the certificate measures it.
     pub fn eta(&self, d: &[f64], force: &[f64]) -> f64 {
-        let mut sum = NormSum::default();
-        let mut residual = [0.0; 3];
         let parts = d.chunks_exact(self.dim).zip(force.chunks_exact(self.dim));
-        for (law, (d, force)) in self.laws.iter().zip(parts) {
-            law.natural_residual(d, force, &mut residual);
-            residual[..self.dim].iter().for_each(|&e| sum.add(e));
-        }
-        let size = sum.root();
+        let pairs = self.laws.iter().zip(parts).map(|(law, (d, force))| (law, d, force));
+        let size = natural_sum(pairs).root();
         if size == 0.0 { 0.0 } else { size / self.unit.max(norm(force)) }
     }
 }

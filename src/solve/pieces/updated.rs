@@ -27,8 +27,8 @@ use crate::linalg::watched::{BLOCK, GoesOn};
 pub struct Change {
     pairs: Vec<(usize, Linearised)>,
     terms: Vec<Term>,
-    /// `Z`, by columns.
-    z: Vec<f64>,
+    /// `Z`, by columns: where the pivot of a single term is zero, `J` is singular along it beyond the boundary.
+    pub z: Vec<f64>,
     /// `M`, by columns.
     matrix: Vec<f64>,
     /// For each term `n.z` of the terms that were made before.
@@ -39,11 +39,6 @@ impl Change {
     /// The first entry of `M`: of a single term the factor by which it changes the determinant.
     pub fn pivot(&self) -> f64 {
         self.matrix.first().copied().unwrap_or(1.0)
-    }
-
-    /// The first column of `Z`: where the pivot of a single term is zero, `J` is singular along it beyond the boundary.
-    pub fn direction(&self) -> &[f64] {
-        &self.z
     }
 }
 

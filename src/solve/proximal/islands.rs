@@ -62,7 +62,7 @@ fn in_turn(
     in_turn.sort_by_key(|pairs| pairs.len());
     // Data of all in that order: those of an island are a part.
     let order: Vec<usize> = in_turn.iter().copied().flatten().copied().collect();
-    let (free, units) = (problem.relation().free(), problem.relation().units());
+    let (free, units) = (problem.relation().free, problem.relation().units());
     let (free, units) = (gathered(free, &order, dim), gathered(units, &order, dim));
     let ordered = Flexibility::new(FlexibilityForm::Dense(Matrix::new(0, &[], 1)), &free, units);
     let data = PairData::of(problem, &order);

@@ -65,7 +65,7 @@
 
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::NormSum;
+use crate::linalg::vector::norm_of;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Settings;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
@@ -236,9 +236,7 @@ impl Springs<'_> {
 
     /// The length of displacements in the norm of `D`.
     fn length(&self, d: impl Fn(usize) -> f64) -> f64 {
-        let mut sum = NormSum::default();
-        self.units.iter().enumerate().for_each(|(i, unit)| sum.add(unit.sqrt() * d(i)));
-        sum.root()
+        norm_of(self.units.iter().enumerate().map(|(i, unit)| unit.sqrt() * d(i)))
     }
 }
 

@@ -11,11 +11,11 @@
 //! lack, which is nothing at a solution.
 
 use super::step::ended;
-use crate::law::{Contact, Linearised, PairLaw, Vector};
+use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum};
 use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::{NormSum, norm};
+use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::settings::{Method, Settings};
@@ -98,7 +98,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         let dim = self.contact.dim();
         let laws = self.contact.pairs().iter();
         let reference = laws.flat_map(|law| law.reference().into_iter().take(dim));
-        let lack = reference.zip(self.relation().free()).map(|(r, q)| r - q);
+        let lack = reference.zip(self.relation().free).map(|(r, q)| r - q);
         self.length(&lack.collect::<Vec<f64>>())
     }
 
@@ -118,7 +118,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
     /// `W F + q`.
     fn caused(&self, force: &[f64]) -> Vec<f64> {
-        let mut d = self.relation().free().to_vec();
+        let mut d = self.relation().free.to_vec();
         add_products(&self.relation().matrix(), force.iter().copied(), &mut d);
         d
     }
@@ -139,24 +139,17 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
     /// `eta` of forces, with the displacements that they cause.
     fn eta_of(&self, force: &[f64], caused: &[f64]) -> f64 {
-        let (relation, mut sum) = (self.relation(), NormSum::default());
-        let mut residual = [0.0; 3];
-        for (law, d, force) in self.contact.each(caused, force) {
-            law.natural_residual(d, force, &mut residual);
-            residual[..d.len()].iter().for_each(|&e| sum.add(e));
-        }
-        let felt = caused.iter().zip(relation.free()).zip(relation.units());
+        let relation = self.relation();
+        let sum = natural_sum(self.contact.each(caused, force)).root();
+        let felt = caused.iter().zip(relation.free).zip(relation.units());
         let felt: Vec<f64> = felt.map(|((d, q), unit)| unit * (d - q)).collect();
         let size = norm(relation.load()).max(norm(force).min(norm(&felt)));
-        let sum = sum.root();
         if sum == 0.0 { 0.0 } else { sum / size }
     }
 
     /// Length of a vector of displacements, each in the unit of its component.
     fn length(&self, d: &[f64]) -> f64 {
-        let mut sum = NormSum::default();
-        d.iter().zip(&self.root).for_each(|(d, root)| sum.add(d * root));
-        sum.root()
+        norm_of(d.iter().zip(&self.root).map(|(d, root)| d * root))
     }
 
     /// `ε` at a point.

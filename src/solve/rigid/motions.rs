@@ -1,7 +1,7 @@
 //! The rigid motions of a problem: those that `K` does not resist.
 
 use crate::linalg::gmres::extend_basis;
-use crate::linalg::vector::{combination, dot, largest_of, norm};
+use crate::linalg::vector::{combination, dot, largest_of};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FreeBlock, Relation};
 
@@ -35,10 +35,8 @@ impl RigidMotions {
     /// The multiples of one motion.
     pub fn along<R: Relation>(problem: &ContactProblem<'_, R>, motion: &[f64]) -> Self {
         let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
-        let mut only = motions.scaled(motion);
-        let size = norm(&only);
-        only.iter_mut().for_each(|r| *r /= size);
-        motions.basis.push(only);
+        let scaled = motions.scaled(motion);
+        extend_basis(&mut motions.basis, scaled);
         motions
     }
 

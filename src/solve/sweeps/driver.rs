@@ -103,7 +103,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         let mut change = 0.0;
         for sweep in 1..=most {
             self.monitor.step()?;
-            change = self.iterate.sweep(self.relaxation.omega());
+            change = self.iterate.sweep(self.relaxation.omega);
             self.relaxation.observe(change);
             if let Some(motion) = self.drift.observe(&self.iterate, self.monitor) {
                 return Err(Ending::Recession(motion));

@@ -44,7 +44,7 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let iterate = ContactIterate::new(contact, call.start_or_zero());
     let mut driver = Driver::new(iterate, settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
-    let effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
+    let effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
     ended(contact, driver, ending, effort)
 }
 
@@ -76,7 +76,7 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             *threshold += theta * change;
         }
     };
-    let (omega, damping) = (driver.relaxation.omega(), damping.theta);
+    let (omega, damping) = (driver.relaxation.omega, damping.theta);
     let effort = Effort { outer_iterations, omega, damping, ..Effort::default() };
     ended(contact, driver, ending, effort)
 }

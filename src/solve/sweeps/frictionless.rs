@@ -30,7 +30,7 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
         };
         let d = normal.expand(driver.iterate.unknowns());
         let mut candidate = Candidate::of_displacements(contact, d, ending);
-        candidate.effort = Effort { omega: driver.relaxation.omega(), ..Effort::default() };
+        candidate.effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
         let done = candidate.ending != Ending::Done
             || candidate.certificate(contact).holds(settings.tolerance);
         if done || target < f64::EPSILON * settings.tolerance {

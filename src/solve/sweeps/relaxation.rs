@@ -9,7 +9,8 @@
 /// Chooses the factor while sweeps go on.
 #[derive(Clone, Debug)]
 pub struct Relaxation {
-    omega: f64,
+    /// The factor to use in the next sweep.
+    pub omega: f64,
     adaptive: bool,
     largest: f64,
     changes: Vec<f64>,
@@ -47,11 +48,6 @@ impl Relaxation {
             since_least: 0,
             patience: PATIENCE + (PATIENCE_PER_UNKNOWN * unknowns as f64) as usize,
         }
-    }
-
-    /// The factor to use in the next sweep.
-    pub fn omega(&self) -> f64 {
-        self.omega
     }
 
     /// Resets the history: the problem has changed.
