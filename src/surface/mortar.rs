@@ -78,9 +78,12 @@ pub(super) fn pairs<'a>(
     let mut rows = rows(slave, faces, planes, (&mut report, watch))?;
     if normals == Normals::Averaged {
         let averaged = slave.node_normals_on(planes, watch)?;
-        rows.iter_mut().for_each(|(node, row)| row.normal = row.area * averaged[node]);
+        for (node, row) in &mut rows {
+            watch.goes_on()?;
+            row.normal = row.area * averaged[node];
+        }
     }
-    report.folded = rims::fold(rims, &mut rows, (slave, dim, planes));
+    report.folded = rims::fold(rims, &mut rows, (slave, dim, planes), watch)?;
     let pairs: Vec<SurfacePair> = rows
         .into_iter()
         .map(|(node, row)| {
@@ -96,13 +99,11 @@ pub(super) fn pairs<'a>(
             })
         })
         .collect::<Result<_, Error>>()?;
-    watch.goes_on()?;
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
-    let has_pair = |node: &usize| pairs.binary_search_by_key(node, |pair| pair.slave).is_ok();
-    let nodes = slave.all_nodes();
+    let mut unpaired = slave.all_nodes();
     watch.goes_on()?;
-    let unpaired = nodes.into_iter().filter(|node| !has_pair(node)).collect();
-    watch.goes_on()?;
+    let mut next = pairs.iter().peekable();
+    unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
     Ok(SurfacePairs { dim, pairs, unpaired, report, ..SurfacePairs::default() })
 }
 

@@ -130,9 +130,15 @@ pub(super) fn pairs(
         planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
     };
     let mut found = paired((slave, dim, planes), report, meets, pair, watch)?;
-    let has_pair = |node: &usize| met.contains_key(node);
-    let alone = (0..slave.count()).filter(|&at| !slave.face(at).nodes.iter().any(has_pair));
-    found.report.uncovered_faces = alone.collect();
+    let meets = |node: &usize| met.contains_key(node);
+    for at in 0..slave.count() {
+        watch.goes_on()?;
+        if !slave.face(at).nodes.iter().any(meets) {
+            found.report.uncovered_faces.push(at);
+        }
+    }
+    // Their memory is given back between questions.
+    met.into_iter().try_for_each(|_| watch.goes_on())?;
     candidates.look_beyond([slave, master], dim, &mut found.report, watch)?;
     Ok(found)
 }

@@ -53,6 +53,7 @@ pub(super) fn pair_sides(
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
     let planes = OnPlanes::new(&slave, dim, (&settings.symmetry, settings.axisymmetric))?;
+    watch.goes_on()?;
     let mut own = SearchFaces::new(&slave, watch)?;
     let mut opposite = SearchFaces::new(&master, watch)?;
     let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings);
@@ -69,7 +70,10 @@ pub(super) fn pair_sides(
             node_to_surface::pairs(sides, dim, &planes, candidates, settings.normals, watch)
         }
     };
-    let mut found = unit.of_host(found?, settings)?;
+    let found = found?;
+    watch.goes_on()?;
+    let mut found = unit.of_host(found, settings)?;
+    watch.goes_on()?;
     found.report.overlapping_and_rough = facets::overlapping_and_rough(&slave, &found, watch)?;
     Ok(found)
 }

@@ -13,6 +13,8 @@ use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;
 use super::symmetry::OnPlanes;
+use super::watch::Watch;
+use crate::error::Error;
 
 /// Nodes with less than this share of cover are at a rim. On 36 unstructured meshes the error of a linear pressure is
 /// with a half that of meshes that are covered wholly, with 0.3 twice and with a tenth three times as large.
@@ -43,25 +45,27 @@ pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
     (slave, dim, planes): (&Side<'_>, usize, &OnPlanes),
-) -> Vec<Fold> {
-    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
-    let least = match rims {
-        Rims::Keep => SAME_COVER,
-        Rims::Fold if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
-        Rims::Fold => LEAST_COVER - SAME_COVER,
-    };
-    let covers = rows.iter().map(|(&node, row)| (node, row.cover()));
-    let (homes, mut little): (Vec<_>, Vec<_>) = covers.partition(|(_, cover)| *cover >= least);
+    watch: &mut Watch<'_, '_>,
+) -> Result<Vec<Fold>, Error> {
+    let least = least_cover(rims, rows, dim);
+    // Those that keep their rows with their cover, and those that are folded with the nodes around.
+    let (mut homes, mut little) = (HashMap::new(), Vec::new());
+    for (&node, row) in rows.iter() {
+        watch.goes_on()?;
+        match row.cover() >= least {
+            true => drop(homes.insert(node, row.cover())),
+            false => little.push((node, row.cover())),
+        }
+    }
     little.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut beside = neighbours(slave, little.iter().map(|(node, _)| *node));
+    let mut beside = neighbours(slave, little.iter().map(|(node, _)| *node), watch)?;
     let next: Vec<usize> = beside.values().flatten().copied().collect();
-    for (node, around) in neighbours(slave, next.into_iter()) {
+    for (node, around) in neighbours(slave, next.into_iter(), watch)? {
         beside.entry(node).or_insert(around);
     }
-    // Those that keep their rows with their cover, and those that are folded with the nodes around.
-    let mut homes: HashMap<usize, f64> = homes.into_iter().collect();
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
+        watch.goes_on()?;
         let may = |own: &f64| *own >= least || cover < LITTLE_COVER - SAME_COVER;
         let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
         let near = beside[&node].clone();
@@ -89,19 +93,32 @@ pub(super) fn fold(
             let taking = rows.get_mut(&home.0).expect("a home keeps its row");
             taking.take_in(&row, worth(home) / sum);
         }
-        Fold { node, into: nearest, distance: least.sqrt() }
+        watch.goes_on()?;
+        Ok(Fold { node, into: nearest, distance: least.sqrt() })
     };
     gone.into_iter().map(fold).collect()
+}
+
+/// The share of cover with which a node keeps its row.
+fn least_cover(rims: Rims, rows: &BTreeMap<usize, Row>, dim: usize) -> f64 {
+    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
+    match rims {
+        Rims::Keep => SAME_COVER,
+        Rims::Fold if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
+        Rims::Fold => LEAST_COVER - SAME_COVER,
+    }
 }
 
 /// The other nodes of the slave faces around some nodes.
 fn neighbours(
     slave: &Side<'_>,
     nodes: impl Iterator<Item = usize>,
-) -> HashMap<usize, BTreeSet<usize>> {
+    watch: &mut Watch<'_, '_>,
+) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
     let mut beside: HashMap<usize, BTreeSet<usize>> =
         nodes.map(|node| (node, BTreeSet::new())).collect();
     for at in 0..slave.count() {
+        watch.goes_on()?;
         let nodes = slave.face(at).nodes;
         for node in nodes {
             if let Some(list) = beside.get_mut(node) {
@@ -109,5 +126,5 @@ fn neighbours(
             }
         }
     }
-    beside
+    Ok(beside)
 }
