@@ -88,7 +88,8 @@ fn unit_values() -> impl Iterator<Item = Values> {
     })
 }
 
-/// Sums the weights of each node and divides them.
+/// Sums the weights of each node and divides them, in memory of their size: what a shorter list leaves of its own lies between
+/// others until all are given back, which takes a fifth longer.
 pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
     weights.sort_by_key(|(node, _)| *node);
     weights.dedup_by(|next, sum| {
@@ -98,6 +99,5 @@ pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
     });
     weights.iter_mut().for_each(|(_, weight)| *weight /= area);
     weights.retain(|(_, weight)| weight.abs() > ROUNDING);
-    weights.shrink_to_fit();
-    weights
+    weights.as_slice().to_vec()
 }
