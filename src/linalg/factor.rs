@@ -1,5 +1,7 @@
 //! Dense factors of square systems, by faer.
 
+use std::mem::MaybeUninit;
+
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt;
 use faer::linalg::lu::partial_pivoting;
@@ -30,9 +32,6 @@ pub fn lu_work(n: usize) -> f64 {
 pub struct Factor {
     factors: Columns,
     kind: Kind,
-    /// Scratch memory of [`Self::solve`], and for how many right-hand sides it is large enough.
-    memory: MemBuffer,
-    room: usize,
     /// Working memory of [`by_rows`].
     rows: Vec<f64>,
 }
@@ -74,13 +73,7 @@ impl Factor {
         let largest = (0..n).map(pivot).fold(0.0, f64::max);
         // Written so that NaN is singular too.
         let regular = (0..n).all(|i| pivot(i) > least * largest);
-        regular.then(|| Factor {
-            factors,
-            kind,
-            memory: MemBuffer::new(StackReq::EMPTY),
-            room: 0,
-            rows: Vec::new(),
-        })
+        regular.then(|| Factor { factors, kind, rows: Vec::new() })
     }
 
     /// Number of rows.
@@ -96,33 +89,29 @@ impl Factor {
         }
         let columns = rhs.len() / n;
         let rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
-        if columns > self.room {
-            self.memory = MemBuffer::new(match self.kind {
-                Kind::Cholesky => llt::solve::solve_in_place_scratch::<f64>(n, columns, Par::Seq),
-                Kind::Lu(_) => partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(
+        let factors = self.factors.as_ref();
+        match &self.kind {
+            Kind::Cholesky => {
+                let scratch = llt::solve::solve_in_place_scratch::<f64>(n, columns, Par::Seq);
+                with_scratch(scratch, |stack| {
+                    by_rows(rhs, &mut self.rows, |rhs| {
+                        llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
+                    });
+                });
+            }
+            Kind::Lu(RowOrder { forward, inverse, .. }) => {
+                let order = PermRef::new_checked(forward, inverse, n);
+                let scratch = partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(
                     n,
                     columns,
                     Par::Seq,
-                ),
-            });
-            self.room = columns;
-        }
-        let factors = self.factors.as_ref();
-        let stack = MemStack::new(&mut self.memory);
-        match &self.kind {
-            Kind::Cholesky => by_rows(rhs, &mut self.rows, |rhs| {
-                llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
-            }),
-            Kind::Lu(RowOrder { forward, inverse, .. }) => {
-                let order = PermRef::new_checked(forward, inverse, n);
-                partial_pivoting::solve::solve_in_place(
-                    factors,
-                    factors,
-                    order,
-                    rhs,
-                    Par::Seq,
-                    stack,
                 );
+                with_scratch(scratch, |stack| {
+                    let par = Par::Seq;
+                    partial_pivoting::solve::solve_in_place(
+                        factors, factors, order, rhs, par, stack,
+                    );
+                });
             }
         }
     }
@@ -143,6 +132,15 @@ impl Factor {
         let odd = matches!(self.kind, Kind::Lu(RowOrder { odd: true, .. }));
         if (negative % 2 == 1) == odd { 1 } else { -1 }
     }
+}
+
+/// Lends scratch memory, so much as small matrices need from the stack.
+fn with_scratch<R>(request: StackReq, work: impl FnOnce(&mut MemStack) -> R) -> R {
+    let mut few = [const { MaybeUninit::uninit() }; 2048];
+    if request.unaligned_bytes_required() <= few.len() {
+        return work(MemStack::new(&mut few));
+    }
+    work(MemStack::new(&mut MemBuffer::new(request)))
 }
 
 /// Overwrites the lower triangle of a symmetric matrix with Cholesky's factor; `None` if the matrix is not
@@ -170,20 +168,20 @@ fn width_of_blocks(n: usize) -> usize {
 /// Cholesky's factor, or the row of the pivot that is not positive, or of the block at which it was ended.
 fn cholesky_to_failure(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Result<(), usize> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
-    let mut memory = MemBuffer::new(dense::scratch(most));
-    for begin in (0..n).step_by(most) {
-        if begin > 0 && !goes_on() {
-            return Err(begin);
+    with_scratch(dense::scratch(most), |stack| {
+        for begin in (0..n).step_by(most) {
+            if begin > 0 && !goes_on() {
+                return Err(begin);
+            }
+            let (width, left) = (most.min(n - begin), n - begin);
+            let all = matrix.as_mut().submatrix_mut(begin, begin, left, left);
+            let (mut root, _, mut below, rest) = all.split_at_mut(width, width);
+            dense::root(root.as_mut(), stack).map_err(|column| begin + column)?;
+            dense::divide(root.as_ref(), below.as_mut());
+            dense::subtract_square(rest, below.as_ref(), &mut || true);
         }
-        let (width, left) = (most.min(n - begin), n - begin);
-        let all = matrix.as_mut().submatrix_mut(begin, begin, left, left);
-        let (mut root, _, mut below, rest) = all.split_at_mut(width, width);
-        let found = dense::root(root.as_mut(), MemStack::new(&mut memory));
-        found.map_err(|column| begin + column)?;
-        dense::divide(root.as_ref(), below.as_mut());
-        dense::subtract_square(rest, below.as_ref(), &mut || true);
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
@@ -193,7 +191,6 @@ pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> 
     let spec = faer::Spec::default();
     let request =
         partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
-    let mut memory = MemBuffer::new(request);
     for begin in (0..n).step_by(most) {
         if begin > 0 && !goes_on() {
             return None;
@@ -201,15 +198,10 @@ pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> 
         let (width, left) = (most.min(n - begin), n - begin);
         let (mut order, mut back) = (vec![0; left], vec![0; left]);
         let panel = matrix.as_mut().submatrix_mut(begin, begin, left, width);
-        let stack = MemStack::new(&mut memory);
-        let (info, _) = partial_pivoting::factor::lu_in_place(
-            panel,
-            &mut order,
-            &mut back,
-            Par::Seq,
-            stack,
-            spec,
-        );
+        let (info, _) = with_scratch(request, |stack| {
+            let par = Par::Seq;
+            partial_pivoting::factor::lu_in_place(panel, &mut order, &mut back, par, stack, spec)
+        });
         exchanges += info.transposition_count;
         let moved: Vec<(usize, usize)> = (begin..n)
             .zip(order.iter().map(|&from| begin + from))
