@@ -33,7 +33,7 @@ impl Weights {
         };
         let mut row = |pair: &&SurfacePair| -> Vec<Weight> {
             let moves = pair
-                .slaves
+                .slaves()
                 .iter()
                 .filter(|(node, _)| !pair.held[axis] && held.binary_search(node).is_err());
             moves.map(|&(node, weight)| (column(node), weight)).collect()
@@ -61,7 +61,7 @@ fn masters_stay(pairs: &[&SurfacePair], dim: usize, moves: &[(usize, f64)]) -> R
     let most = moves.iter().map(|(_, moved)| moved.abs()).fold(0.0, f64::max);
     let seen = moves.iter().filter(|(_, moved)| without_rounding(*moved, most) != 0.0);
     let moving: HashSet<usize> = seen.map(|(entry, _)| entry / dim).collect();
-    let masters = pairs.iter().flat_map(|pair| &pair.masters);
+    let masters = pairs.iter().flat_map(|pair| pair.masters());
     match masters.map(|(node, _)| *node).find(|node| moving.contains(node)) {
         None => Ok(()),
         Some(node) => {
@@ -94,7 +94,7 @@ impl SurfacePairs {
             let message = format!("within is {within}, it must not be negative");
             return Err(Error::invalid(Argument::Settings, message));
         }
-        let named = self.pairs.iter().flat_map(|pair| pair.slaves.iter().chain(&pair.masters));
+        let named = self.pairs.iter().flat_map(|pair| &pair.nodes.weights);
         let least = named.map(|(node, _)| dim * (node + 1)).max().unwrap_or(0);
         if coordinates.len() < least {
             let message =
@@ -104,11 +104,11 @@ impl SurfacePairs {
         let watch = &mut Watch::new(monitor);
         let place = |&(node, weight): &Weight| weight * vector(&coordinates[dim * node..][..dim]);
         let apart = |pair: &SurfacePair| -> Vector3 {
-            if pair.masters.is_empty() {
+            if pair.masters().is_empty() {
                 return -pair.gap * Vector3::from(pair.normal);
             }
-            let [slave, master] =
-                [&pair.slaves, &pair.masters].map(|nodes| nodes.iter().map(place).sum::<Vector3>());
+            let [slave, master] = [pair.slaves(), pair.masters()]
+                .map(|nodes| nodes.iter().map(place).sum::<Vector3>());
             slave - master
         };
         let all = self.pairs.iter().map(|pair| (pair, apart(pair)));

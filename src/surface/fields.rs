@@ -103,7 +103,7 @@ impl SurfacePairs {
             (0..self.pairs.len()).map(|pair| self.values(pair, results)).collect();
         let mut sums: BTreeMap<usize, Values> = BTreeMap::new();
         for (j, pair) in self.pairs.iter().enumerate() {
-            let sides = [(&pair.slaves, 1.0), (&pair.masters, -1.0)];
+            let sides = [(pair.slaves(), 1.0), (pair.masters(), -1.0)];
             for (nodes, sign) in sides {
                 for &(node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
                     let share = pair.area * weight.abs();

@@ -90,9 +90,9 @@ pub(super) fn pairs<'a>(
             watch.goes_on()?;
             let (area, gap) = (row.area, row.gap / row.area);
             let normal = planes.turned(node, mean_normal(node, &row)?);
-            let weights = row.into_weights();
-            let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
-            let pair = SurfacePair::new(dim, (node, area), weights, normal, points);
+            let nodes = row.into_nodes();
+            let points = (slave.point(nodes.slaves()), Some(master.point(nodes.masters())));
+            let pair = SurfacePair::new(dim, (node, area), nodes, normal, points);
             planes.hold(match &shapes {
                 Some(shapes) => pair.with_gap(gap, shapes.size()),
                 None => pair,

@@ -119,15 +119,17 @@ pub(super) fn pairs(
     };
     let meets = |node: usize| met.contains_key(&node);
     let pair = |node, mut row: Row| {
-        for (slave, part) in &row.slaves {
-            let parts = met[slave].weights.iter().map(|(node, weight)| (*node, part * weight));
-            row.masters.extend(parts);
+        let slaves: Vec<Weight> = row.slaves().collect();
+        for (slave, part) in slaves {
+            row.add_masters(
+                met[&slave].weights.iter().map(|(node, weight)| (*node, part * weight)),
+            );
         }
         let area = row.area;
-        let weights = row.into_weights();
-        let points = (slave.point(&weights[0]), Some(master.point(&weights[1])));
+        let nodes = row.into_nodes();
+        let points = (slave.point(nodes.slaves()), Some(master.point(nodes.masters())));
         let normal = planes.turned(node, met[&node].normal);
-        planes.hold(SurfacePair::new(dim, (node, area), weights, normal, points))
+        planes.hold(SurfacePair::new(dim, (node, area), nodes, normal, points))
     };
     let mut found = paired((slave, dim, planes), report, meets, pair, watch)?;
     let meets = |node: &usize| met.contains_key(node);

@@ -74,13 +74,14 @@ pub fn pair_with_obstacle(
     let meets = |node: usize| facing[&node].0.abs() <= reach;
     let pair = |node, row: Row| {
         let area = row.area;
-        let [slaves, masters] = row.into_weights();
+        let nodes = row.into_nodes();
+        let slaves = nodes.slaves();
         let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
         let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
         let size = slaves.iter().map(|(node, weight)| weight.abs() * size(node)).sum();
-        let points = (side.point(&slaves), None);
+        let points = (side.point(slaves), None);
         let normal = planes.turned(node, facing[&node].1);
-        let pair = SurfacePair::new(dim, (node, area), [slaves, masters], normal, points);
+        let pair = SurfacePair::new(dim, (node, area), nodes, normal, points);
         planes.hold(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
     unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, settings)

@@ -7,6 +7,15 @@ use crate::linalg::vector3::Vector3;
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
 
+/// The nodes of a row with their weights: slaves and masters in one list, which is given back in half the time of two.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RowNodes {
+    /// Slaves by node, then masters by node.
+    pub(super) weights: Vec<Weight>,
+    /// Number of slaves.
+    pub(super) slaves: usize,
+}
+
 /// A contact pair as a row over nodes: `d = Σ a_i u_i - Σ w_k u_k` over the slave's nodes and the
 /// master's, in the host's axes, with `Σ a_i = 1`, and `Σ w_k = 1` unless the pair faces an obstacle.
 ///
@@ -15,12 +24,8 @@ pub type Weight = (usize, f64);
 pub struct SurfacePair {
     /// The slave node that the row belongs to. No other pair belongs to it.
     pub slave: usize,
-    /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
-    /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
-    /// in a neighbour with little cover has that neighbour.
-    pub slaves: Vec<Weight>,
-    /// Master nodes with their weights, by node; none against an obstacle.
-    pub masters: Vec<Weight>,
+    /// The nodes of the row.
+    pub nodes: RowNodes,
     /// Where the force of the pair acts on the slave's body: the slave nodes' places by their weights.
     pub point: [f64; 3],
     /// Unit normal, outward from the slave's body.
@@ -146,7 +151,7 @@ impl SurfacePair {
     pub(super) fn new(
         dim: usize,
         (slave, area): (usize, f64),
-        [slaves, masters]: [Vec<Weight>; 2],
+        nodes: RowNodes,
         normal: Vector3,
         (point, opposite): (Vector3, Option<Vector3>),
     ) -> SurfacePair {
@@ -157,15 +162,43 @@ impl SurfacePair {
         let tangents = plane::tangents(dim, normal).map(Into::into);
         let (point, normal) = (point.into(), normal.into());
         let held = [false; 3];
-        SurfacePair { slave, slaves, masters, point, normal, tangents, gap, area, held }
+        SurfacePair { slave, nodes, point, normal, tangents, gap, area, held }
     }
 }
 
 impl SurfacePair {
+    /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
+    /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
+    /// in a neighbour with little cover has that neighbour.
+    pub fn slaves(&self) -> &[Weight] {
+        self.nodes.slaves()
+    }
+
+    /// Master nodes with their weights, by node; none against an obstacle.
+    pub fn masters(&self) -> &[Weight] {
+        self.nodes.masters()
+    }
+
+    /// The pair without its masters: against an obstacle.
+    pub fn without_masters(mut self) -> SurfacePair {
+        self.nodes.weights.truncate(self.nodes.slaves);
+        self
+    }
+
     /// The pair with a gap between shapes of this size beside its own place.
     pub(super) fn with_gap(self, gap: f64, size: f64) -> SurfacePair {
         let size = size + Vector3::from(self.point).lp_norm(1);
         SurfacePair { gap: without_rounding(gap, size), ..self }
+    }
+}
+
+impl RowNodes {
+    pub(super) fn slaves(&self) -> &[Weight] {
+        &self.weights[..self.slaves]
+    }
+
+    pub(super) fn masters(&self) -> &[Weight] {
+        &self.weights[self.slaves..]
     }
 }
 
@@ -212,7 +245,7 @@ impl SurfacePairs {
     /// If a list of degrees of freedom ends before the last node of a pair.
     pub fn rows_on(&self, dofs: NodeDofs<'_>) -> PairArrays {
         let (dim, count) = (self.dim, self.pairs.len());
-        let entries = self.pairs.iter().map(|pair| pair.slaves.len() + pair.masters.len()).sum();
+        let entries = self.pairs.iter().map(|pair| pair.nodes.weights.len()).sum();
         let mut arrays = PairArrays {
             dim,
             masters: Vec::with_capacity(dim * entries),
@@ -223,8 +256,8 @@ impl SurfacePairs {
             ..PairArrays::default()
         };
         for pair in &self.pairs {
-            let masters = pair.masters.iter().map(|&(node, weight)| (node, -weight));
-            let nodes = pair.slaves.iter().copied().chain(masters);
+            let masters = pair.masters().iter().map(|&(node, weight)| (node, -weight));
+            let nodes = pair.slaves().iter().copied().chain(masters);
             arrays.push(pair, (nodes, dofs), (pair.gap, pair.area));
         }
         arrays
@@ -239,13 +272,13 @@ impl SurfacePairs {
         let mut arrays = PairArrays { dim, master_start: vec![0], ..PairArrays::default() };
         let belongs = |node| self.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok();
         for pair in &self.pairs {
-            let own = pair.slaves.iter().find(|(node, _)| *node == pair.slave)?.1;
-            let others = pair.slaves.iter().filter(|(node, _)| *node != pair.slave);
+            let own = pair.slaves().iter().find(|(node, _)| *node == pair.slave)?.1;
+            let others = pair.slaves().iter().filter(|(node, _)| *node != pair.slave);
             let mut masters: Vec<Weight> = others.map(|(node, a)| (*node, -a / own)).collect();
             if masters.iter().any(|(node, _)| belongs(*node)) {
                 return None;
             }
-            masters.extend(pair.masters.iter().map(|(node, weight)| (*node, weight / own)));
+            masters.extend(pair.masters().iter().map(|(node, weight)| (*node, weight / own)));
             arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
             let dofs = NodeDofs::PerNode(dim);
             arrays.push(pair, (masters.into_iter(), dofs), (pair.gap / own, pair.area * own));

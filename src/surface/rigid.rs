@@ -3,7 +3,7 @@
 
 use super::mesh::{Faces, Side};
 use super::pair_surfaces::pair_sides;
-use super::pairs::SurfacePairs;
+use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::SurfaceSettings;
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
@@ -35,7 +35,7 @@ pub fn pair_with_rigid_surface(
     let slave = Side::slave(dim, coordinates, slave)?;
     let RigidSurface { coordinates, faces } = *rigid;
     let obstacle = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-    let mut found = pair_sides([slave, obstacle], dim, settings, monitor)?;
-    found.pairs.iter_mut().for_each(|pair| pair.masters.clear());
-    Ok(found)
+    let found = pair_sides([slave, obstacle], dim, settings, monitor)?;
+    let pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
+    Ok(SurfacePairs { pairs, ..found })
 }

@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::control::Basis;
-use super::pairs::Weight;
+use super::pairs::{RowNodes, Weight};
 use super::shape::{MOST_NODES, Values};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
+
+/// The bit of a node that is a master: it sorts masters behind all slaves.
+const MASTER: usize = 1 << (usize::BITS - 1);
 
 /// `D_j` times the row of a node: `D_j û_j - Σ_k M_jk u_k`.
 #[derive(Clone, Debug, Default)]
@@ -15,10 +18,9 @@ pub(super) struct Row {
     pub(super) area: f64,
     /// The area that the node would have on the whole of all slave faces around it that look the same way.
     pub(super) whole: f64,
-    /// Slave nodes with weights whose sum is `D_j`; nodes may repeat.
-    pub(super) slaves: Vec<Weight>,
-    /// Master nodes likewise.
-    pub(super) masters: Vec<Weight>,
+    /// Slave nodes, and master nodes with the bit [`MASTER`], with weights of which those of either side have the sum
+    /// `D_j`; nodes may repeat.
+    weights: Vec<Weight>,
     /// Unit normals times their areas, of the faces at the node or its averaged one: of length `D_j` if they agree.
     pub(super) normal: Vector3,
     /// `D_j` times the gap between true shapes; 0 if the sides are their faces.
@@ -37,14 +39,26 @@ impl Row {
         self.area += share * other.area;
         self.normal += share * other.normal;
         self.gap += share * other.gap;
-        self.slaves.extend(other.slaves.iter().map(part));
-        self.masters.extend(other.masters.iter().map(part));
+        self.weights.extend(other.weights.iter().map(part));
     }
 
-    /// The weights of slaves and masters, by node, each set with the sum 1. Weights that are zero but
+    /// The slave nodes with their weights.
+    pub(super) fn slaves(&self) -> impl Iterator<Item = Weight> {
+        self.weights.iter().copied().filter(|(node, _)| node & MASTER == 0)
+    }
+
+    /// Adds master nodes.
+    pub(super) fn add_masters(&mut self, masters: impl Iterator<Item = Weight>) {
+        self.weights.extend(masters.map(|(node, weight)| (node | MASTER, weight)));
+    }
+
+    /// The nodes of slaves and masters, the weights of either side with the sum 1. Weights that are zero but
     /// for rounding are left out: a node that a row does not move shall not be named by it.
-    pub(super) fn into_weights(self) -> [Vec<Weight>; 2] {
-        [merged(self.slaves, self.area), merged(self.masters, self.area)]
+    pub(super) fn into_nodes(self) -> RowNodes {
+        let mut weights = merged(self.weights, self.area);
+        let slaves = weights.partition_point(|(node, _)| node & MASTER == 0);
+        weights[slaves..].iter_mut().for_each(|(node, _)| *node &= !MASTER);
+        RowNodes { weights, slaves }
     }
 }
 
@@ -72,8 +86,8 @@ pub(super) fn add_face(
         row.area += areas[j];
         row.whole += whole[j];
         // A node that a row does not move is not named by it: it may face nothing.
-        row.slaves.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
-        row.masters.extend(masters.iter().map(scaled));
+        row.weights.extend(own.iter().map(scaled).filter(|(_, weight)| *weight != 0.0));
+        row.add_masters(masters.iter().map(scaled));
         row.normal += areas[j] * normals[j];
         row.gap += areas[j] * gaps[j];
     }
@@ -90,7 +104,7 @@ fn unit_values() -> impl Iterator<Item = Values> {
 
 /// Sums the weights of each node and divides them, in memory of their size: what a shorter list leaves of its own lies between
 /// others until all are given back, which takes a fifth longer.
-pub(super) fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
+fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
     weights.sort_by_key(|(node, _)| *node);
     weights.dedup_by(|next, sum| {
         let is_same = next.0 == sum.0;

@@ -53,7 +53,7 @@ pub(super) fn paired(
     for (node, row) in whole_rows(side, planes, watch)? {
         watch.goes_on()?;
         report.slave_area += row.area;
-        if row.slaves.iter().all(|(node, _)| meets(*node)) {
+        if row.slaves().all(|(node, _)| meets(node)) {
             report.covered_area += row.area;
             found.pairs.push(pair(node, row)?);
         } else {

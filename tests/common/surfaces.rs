@@ -205,7 +205,7 @@ pub fn flat(faces: &[Vec<usize>]) -> (Vec<usize>, Vec<usize>) {
 pub fn nodal_forces(found: &SurfacePairs, nodes: usize, pressure: f64) -> Vec<[f64; 3]> {
     let mut forces = vec![[0.0; 3]; nodes];
     for pair in &found.pairs {
-        for (weights, sign) in [(&pair.slaves, -1.0), (&pair.masters, 1.0)] {
+        for (weights, sign) in [(pair.slaves(), -1.0), (pair.masters(), 1.0)] {
             for &(node, weight) in weights {
                 let size = sign * pressure * pair.area * weight;
                 forces[node].iter_mut().zip(pair.normal).for_each(|(f, n)| *f += size * n);
@@ -225,7 +225,7 @@ pub fn most_moved(
         let sum = |weights: &[(usize, f64)], c: usize| -> f64 {
             weights.iter().map(|&(node, weight)| weight * u(nodes[node])[c]).sum()
         };
-        (0..3).map(|c| (sum(&pair.slaves, c) - sum(&pair.masters, c)).abs()).fold(0.0, f64::max)
+        (0..3).map(|c| (sum(pair.slaves(), c) - sum(pair.masters(), c)).abs()).fold(0.0, f64::max)
     };
     found.pairs.iter().map(moved).fold(0.0, f64::max)
 }

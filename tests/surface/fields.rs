@@ -51,7 +51,7 @@ fn resultants_are_sums_of_nodal_forces() {
             let [f_n, f_1, f_2] = [0, 1, 2].map(|k| force[3 * j + k]);
             let [t_1, t_2] = pair.tangents;
             let acting = [0, 1, 2].map(|i| f_n * pair.normal[i] + f_1 * t_1[i] + f_2 * t_2[i]);
-            for (side, weights) in [&pair.slaves, &pair.masters].into_iter().enumerate() {
+            for (side, weights) in [pair.slaves(), pair.masters()].into_iter().enumerate() {
                 for &(node, weight) in weights {
                     let arm = [0, 1, 2].map(|i| weight * (nodes[node][i] - about[i]));
                     let moment = cross(arm, acting);

@@ -105,7 +105,7 @@ fn check(corners: &[Point; 4], rng: &mut Rng) -> usize {
         let pair = found.pairs.iter().find(|pair| pair.slave == 4 + k);
         let pair = pair.unwrap_or_else(|| panic!("{corners:?}: no pair above {at:?}"));
         for corner in 0..4 {
-            let given = pair.masters.iter().find(|(node, _)| *node == corner);
+            let given = pair.masters().iter().find(|(node, _)| *node == corner);
             let given = given.map_or(0.0, |(_, weight)| *weight);
             let error = (given - shape(corner, *at)[0]).abs();
             assert!(error <= tolerance, "{corners:?}, {at:?}: {error:e} of {tolerance:e}");

@@ -184,7 +184,7 @@ fn rows_do_not_depend_on_the_unit() {
             for (found, by) in [&large, &small] {
                 assert_eq!(found.pairs.len(), one.0.pairs.len());
                 for (a, b) in found.pairs.iter().zip(&one.0.pairs) {
-                    assert_eq!((&a.slaves, &a.masters), (&b.slaves, &b.masters));
+                    assert_eq!((a.slaves(), a.masters()), (b.slaves(), b.masters()));
                     assert_eq!((a.normal, a.tangents, a.held), (b.normal, b.tangents, b.held));
                     assert_eq!((a.gap, a.area), (b.gap * by, b.area * by * by));
                     assert_eq!(a.point, b.point.map(|x| x * by));
@@ -339,7 +339,7 @@ fn a_uniform_pressure_passes_between_rings() {
                 assert!(found.pairs.iter().all(|pair| pair.area > 0.0), "{context}");
                 let mut sums = vec![0.0; nodes.len()];
                 for pair in &found.pairs {
-                    for (weights, sign) in [(&pair.slaves, 1.0), (&pair.masters, -1.0)] {
+                    for (weights, sign) in [(pair.slaves(), 1.0), (pair.masters(), -1.0)] {
                         weights.iter().for_each(|(node, a)| sums[*node] += sign * pair.area * a);
                     }
                     let on_axis = nodes[pair.slave][0] == 0.0;
