@@ -12,7 +12,7 @@ use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
-use crate::linalg::watched::{BLOCK, GoesOn};
+use crate::linalg::watched::GoesOn;
 
 /// A factorised system with a change.
 pub struct Amended<'e> {
@@ -89,12 +89,16 @@ impl<'e> Amended<'e> {
         if terms.is_empty() {
             return Some(());
         }
-        self.prepare(&terms, goes_on)?;
+        let all = usize::MAX;
+        self.columns.prepare(&terms, all, goes_on, |components| {
+            self.base.unknowns(&equations.change_columns(components))
+        })?;
         let changed = self.changed(&terms);
-        let place = |term: &Term| changed.pairs.binary_search(&(term.first / equations.dim));
-        let placed =
-            terms.into_iter().map(|term| (place(&term).map_or(0, |at| at * equations.dim), term));
-        let terms: Vec<(usize, Term)> = placed.collect();
+        let placed = |term: Term| {
+            let at = changed.pairs.binary_search(&(term.first / equations.dim));
+            (equations.dim * at.expect("the pair of a term changes"), term)
+        };
+        let terms: Vec<(usize, Term)> = terms.into_iter().map(placed).collect();
         let known = self.columns.components();
         let mut pushes = Vec::with_capacity(changed.held.len() * known.len());
         for &j in known {
@@ -133,23 +137,6 @@ impl<'e> Amended<'e> {
         let held: Vec<usize> = held.map(|(i, _)| i).collect();
         let rows = self.base.rows(self.equations, &held);
         Changed { pairs, places, held, rows }
-    }
-
-    /// Makes the columns that the terms need and that are not known; `None` where `goes_on` says no.
-    fn prepare(&mut self, terms: &[Term], goes_on: GoesOn<'_>) -> Option<()> {
-        let lacking = |columns: &Columns| columns.lacking(terms.iter().flat_map(Term::parts));
-        let mut components = lacking(&self.columns);
-        if !self.columns.make_room(components.len()) {
-            components = lacking(&self.columns);
-        }
-        for components in components.chunks(BLOCK) {
-            if !goes_on() {
-                return None;
-            }
-            let columns = self.base.unknowns(&self.equations.change_columns(components));
-            self.columns.add(components, &columns);
-        }
-        Some(())
     }
 
     /// `J⁻¹ b`.

@@ -4,6 +4,7 @@
 //! take one after the other, because the factor is read once.
 
 use super::term::Term;
+use crate::linalg::watched::{BLOCK, GoesOn};
 
 /// Most columns that are kept, as a part of all: they take memory.
 const KEPT: f64 = 0.25;
@@ -56,8 +57,34 @@ impl Columns {
         components
     }
 
+    /// Makes the columns that terms need, at most so many, so far as they are not known; `None` where `goes_on` says no.
+    pub fn prepare(
+        &mut self,
+        terms: &[Term],
+        most: usize,
+        goes_on: GoesOn<'_>,
+        mut made: impl FnMut(&[usize]) -> Vec<f64>,
+    ) -> Option<()> {
+        let lacking = |columns: &Self| {
+            let mut components = columns.lacking(terms.iter().flat_map(Term::parts));
+            components.truncate(most);
+            components
+        };
+        let mut components = lacking(self);
+        if !self.make_room(components.len()) {
+            components = lacking(self);
+        }
+        for components in components.chunks(BLOCK) {
+            if !goes_on() {
+                return None;
+            }
+            self.add(components, &made(components));
+        }
+        Some(())
+    }
+
     /// Forgets all columns if there is no room for so many more; true if none was forgotten.
-    pub fn make_room(&mut self, more: usize) -> bool {
+    fn make_room(&mut self, more: usize) -> bool {
         let known = self.components.len();
         let has_room = known == 0 || (known + more) as f64 <= KEPT * self.place.len() as f64;
         if !has_room {
@@ -69,7 +96,7 @@ impl Columns {
     }
 
     /// Takes in the columns of `components`.
-    pub fn add(&mut self, components: &[usize], columns: &[f64]) {
+    fn add(&mut self, components: &[usize], columns: &[f64]) {
         let known = self.components.len();
         (known..).zip(components).for_each(|(place, &i)| self.place[i] = Some(place));
         self.components.extend_from_slice(components);

@@ -112,25 +112,10 @@ impl<'e> Updated<'e> {
         most: usize,
         goes_on: GoesOn<'_>,
     ) -> Option<()> {
-        let parts = self.terms(likely);
-        let lacking = |columns: &Columns| {
-            let mut components = columns.lacking(parts.iter().flat_map(Term::parts));
-            components.truncate(most);
-            components
-        };
-        let mut components = lacking(&self.columns);
-        if !self.columns.make_room(components.len()) {
-            components = lacking(&self.columns);
-        }
-        for components in components.chunks(BLOCK) {
-            if !goes_on() {
-                return None;
-            }
-            let sides = self.equations.change_columns(components);
-            let columns = self.base.solve(self.equations, &sides);
-            self.columns.add(components, &columns);
-        }
-        Some(())
+        let (terms, equations) = (self.terms(likely), self.equations);
+        self.columns.prepare(&terms, most, goes_on, |components| {
+            self.base.solve(equations, &equations.change_columns(components))
+        })
     }
 
     /// The change of pairs to the pieces beyond; `None` where `goes_on` says no.
