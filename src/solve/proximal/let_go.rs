@@ -128,10 +128,16 @@ impl Springs<'_> {
     fn let_go(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
         let (mut s, mut factor) = (1.0, FACTOR);
         self.d = self.held(s, true, monitor)?;
-        let away = AWAY * self.length(|i| self.d[i]);
+        let (away, mut is_steady) = (AWAY * self.length(|i| self.d[i]), false);
         while s > LEAST {
             let before = self.systems;
-            let (next, d) = self.next(s, &mut factor, monitor)?;
+            let (next, d) = match self.next(s, &mut factor, monitor) {
+                // Rounding ends what has moved away as far as it can be seen.
+                Err(ending) if is_steady && !matches!(ending, Ending::Stopped(_)) => {
+                    return Err(self.runs_away(s));
+                }
+                found => found?,
+            };
             if self.systems - before <= QUICK {
                 factor = factor.powf(FASTER).min(MOST_FACTOR);
             }
@@ -145,11 +151,17 @@ impl Springs<'_> {
                     return Ok(candidate);
                 }
             }
-            if size > away && turn <= STEADY * s * size {
-                return Err(Ending::RunsAway(self.d.iter().map(|d| s * d).collect()));
+            is_steady = turn <= STEADY * s * size;
+            if size > away && is_steady {
+                return Err(self.runs_away(s));
             }
         }
         Err(Ending::Stalled("the displacements do not settle as springs are let go"))
+    }
+
+    /// The end of bodies that move by `d` with springs `s`.
+    fn runs_away(&self, s: f64) -> Ending {
+        Ending::RunsAway(self.d.iter().map(|d| s * d).collect())
     }
 
     /// The next problem that is solved after that with springs `s`: its springs, and its solution.
