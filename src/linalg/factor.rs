@@ -134,7 +134,8 @@ impl Factor {
     }
 }
 
-/// Lends scratch memory, so much as small matrices need from the stack.
+/// Lends scratch memory to `work`. Small matrices have theirs on the stack: an allocation takes as long as their
+/// factorisation.
 fn with_scratch<R>(request: StackReq, work: impl FnOnce(&mut MemStack) -> R) -> R {
     let mut few = [const { MaybeUninit::uninit() }; 2048];
     if request.unaligned_bytes_required() <= few.len() {

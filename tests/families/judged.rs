@@ -2,7 +2,8 @@
 //! nothing with the library.
 //!
 //! `SIGNORINI_JUDGED=1000000 cargo test --release --test families -- judged:: --nocapture` judges as many;
-//! `SIGNORINI_JUDGED_FROM=2000000` begins at another seed than 0, and `SIGNORINI_JUDGED_SEED=17` prints the problem of one seed and what is said of it.
+//! `SIGNORINI_JUDGED_FROM=2000000` begins at another seed than 0, and `SIGNORINI_JUDGED_SEED=17` prints the problem of one
+//! seed and what is said of it.
 
 use crate::common::all_states::all_solutions;
 use crate::common::dense::largest;
