@@ -160,13 +160,13 @@ fn solve(
     let systems = iterate.systems;
     let factorisations = systems.factorisations;
     // Variables that are all at their bounds have the system of the identity.
-    let (orientation, mut definite) = match basic.contains(&true) {
-        true => (systems.orientation(), systems.definite(&mut monitor.asking())),
-        false => (1, basic.clone()),
+    let is_factorised = basic.contains(&true);
+    let orientation = if is_factorised { systems.orientation() } else { 1 };
+    let definite = match ending {
+        Ending::Done if is_factorised => systems.definite(&mut monitor.asking()),
+        Ending::Done => basic.clone(),
+        _ => Vec::new(),
     };
-    if ending != Ending::Done {
-        definite.clear();
-    }
     systems.leave(|| Before::of_variables(&basic, (&x, &w), lcp.q));
     Pivoted { x, w, ending, factorisations, orientation, definite }
 }
