@@ -223,14 +223,15 @@ fn answers_next_to_no_solution_are_no_second_one() {
 }
 
 /// Problems of long runs in which a pair without an obstacle moves against the others as the body turns, one in which
-/// another pair would approach as one is lifted, and three whose pairs slide, so that the least lift alone leaves an approach.
+/// another pair would approach as one is lifted, three whose pairs slide, so that the least lift
+/// alone leaves an approach, and two of which a pair nearly rests.
 /// The motion that proves that there is no equilibrium is lifted off the obstacles that there are, and approaches none, not
 /// by 1e-11, nor by what is left where rounding of the motions contradicts itself.
 #[test]
 fn motions_are_lifted_off_the_obstacles_that_there_are() {
     let of_long_runs = [
         (19, &[333_484, 399_557, 76_367, 175_518][..]),
-        (24, &[349_486, 224_686, 24_999, 40_942, 52_782]),
+        (24, &[349_486, 224_686, 24_999, 40_942, 52_782, 85_671, 106_663]),
     ];
     for (classes, seed) in
         of_long_runs.into_iter().flat_map(|(n, s)| s.iter().map(move |&s| (n, s)))
