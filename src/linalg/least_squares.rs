@@ -40,6 +40,11 @@ impl Columns {
         all
     }
 
+    /// True if no column depends on earlier ones.
+    pub fn are_independent(&self) -> bool {
+        self.which.len() == self.count
+    }
+
     /// Takes the columns out of a vector, and returns its shares in `C`.
     pub fn take_out(&self, vector: &mut [f64]) -> Vec<f64> {
         let (mut shares, _, _) = orthogonalised(vector, &self.basis);

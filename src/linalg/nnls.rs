@@ -1,6 +1,6 @@
 //! Non-negative least squares (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23).
 
-use super::gmres::{orthogonalised, solve_triangle};
+use super::least_squares::Columns;
 use super::vector::dot;
 
 /// Slopes above this part of the length of the target would still lower the distance: ten times the
@@ -52,7 +52,7 @@ fn descend(
     x: &mut Vec<f64>,
 ) -> Option<()> {
     loop {
-        let wanted = least_squares(target, columns, active)?;
+        let wanted = shortest(target, columns, active)?;
         let blocking = (0..x.len())
             .filter(|&k| wanted[k] <= 0.0)
             .map(|k| (x[k] / (x[k] - wanted[k]).max(f64::MIN_POSITIVE), k))
@@ -71,20 +71,8 @@ fn descend(
 
 /// The `x` for which `target + sum x_j columns_j` is shortest; `None` if the columns are dependent. By orthogonal
 /// directions: products of the columns with each other would lose half the digits of columns next to each other.
-fn least_squares(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Option<Vec<f64>> {
-    let (mut basis, mut triangle) = (Vec::new(), Vec::new());
-    for (k, &j) in active.iter().enumerate() {
-        let mut direction = columns[j].clone();
-        let (mut column, left, was) = orthogonalised(&mut direction, &basis);
-        if left <= SLOPE * was {
-            return None;
-        }
-        direction.iter_mut().for_each(|v| *v /= left);
-        column[k] = left;
-        basis.push(direction);
-        triangle.push(column);
-    }
-    let mut x: Vec<f64> = basis.iter().map(|direction| -dot(direction, target)).collect();
-    solve_triangle(&triangle, &mut x);
-    Some(x)
+fn shortest(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Option<Vec<f64>> {
+    let basis = Columns::new(active.iter().map(|&j| columns[j].clone()), SLOPE);
+    let mut opposite: Vec<f64> = target.iter().map(|v| -v).collect();
+    basis.are_independent().then(|| basis.coefficients(basis.take_out(&mut opposite)))
 }

@@ -7,7 +7,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 use super::columns::Columns;
 use super::dense;
 use super::factor::cholesky;
-use super::tolerances::{NEGLIGIBLE, SUSPICIOUS_PIVOT};
+use super::tolerances::SUSPICIOUS_PIVOT;
 use super::watched::{BLOCK, GoesOn, filled, lower_triangle};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
@@ -22,14 +22,9 @@ pub struct PivotedCholesky {
 }
 
 impl PivotedCholesky {
-    /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`.
-    /// `None` if it is not positive semi-definite.
-    pub fn new(n: usize, entry: impl Fn(usize, usize) -> f64 + Sync) -> Option<Self> {
-        Self::within(n, NEGLIGIBLE, entry, &mut || true)
-    }
-
-    /// As [`Self::new`]; rows whose pivots are at most `least` depend on the others. `None` also if `go_on` ends it,
-    /// which is asked between panels.
+    /// Factorises the `n x n` matrix whose lower triangle is `entry(i, j)`, `i >= j`; rows whose pivots are at most `least`
+    /// depend on the others. `None` if it is not positive semi-definite, or if `go_on` ends it, which is asked between
+    /// panels.
     pub fn within(
         size: usize,
         least: f64,

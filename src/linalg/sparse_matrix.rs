@@ -5,6 +5,7 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 use faer::{Accum, MatMut, MatRef, Par};
 
 use super::double_double::{two_product, two_sum};
+use super::simd::vectorised;
 use super::watched::GoesOn;
 
 /// Compressed columns, rows ascending.
@@ -99,6 +100,7 @@ pub fn transpose_times(a: &Csc, x: &[f64]) -> Vec<f64> {
 }
 
 /// Visits each entry of the symmetric matrix whose lower triangle is `lower`: row, column, value.
+#[inline(always)]
 pub fn each_of_symmetric(lower: &Csc, mut visit: impl FnMut(usize, usize, f64)) {
     for j in 0..lower.ncols() {
         let (rows, values) = column(lower, j);
@@ -131,12 +133,21 @@ pub fn symmetric_residual(lower: &Csc, (x, low): (&[f64], &[f64]), b: &[f64]) ->
     let (mut sum, mut rest): (Vec<f64>, Vec<f64>) =
         (b.iter().map(|b| -b).collect(), vec![0.0; b.len()]);
     let low_of = |j: usize| low.get(j).copied().unwrap_or(0.0);
-    each_of_symmetric(lower, |i, j, value| {
-        let (product, error) = two_product(value, x[j]);
-        let (high, lost) = two_sum(sum[i], product);
-        sum[i] = high;
-        rest[i] += (error + lost) + value * low_of(j);
-    });
+    vectorised(
+        #[inline(always)]
+        || {
+            each_of_symmetric(
+                lower,
+                #[inline(always)]
+                |i, j, value| {
+                    let (product, error) = two_product(value, x[j]);
+                    let (high, lost) = two_sum(sum[i], product);
+                    sum[i] = high;
+                    rest[i] += (error + lost) + value * low_of(j);
+                },
+            );
+        },
+    );
     sum.iter().zip(&rest).map(|(sum, rest)| sum + rest).collect()
 }
 

@@ -16,10 +16,10 @@ use std::f64::consts::SQRT_2;
 use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
 use crate::law::Contact;
+use crate::linalg::least_squares::least_squares;
 use crate::linalg::nnls;
-use crate::linalg::pivoted_cholesky::PivotedCholesky;
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::dot;
+use crate::linalg::vector::{dot, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Relation, Stiffness};
 use crate::solve::result::Ending;
@@ -183,9 +183,8 @@ impl<'c, R: Relation> Balance<'c, R> {
             }
             let lift = self.least_lift(&motion, nearest);
             let lift = lift.filter(|step| self.motions.size(step) <= NEARLY * size);
-            let better = [self.step_away(&motion), lift]
-                .into_iter()
-                .flatten()
+            let better = std::iter::once(self.step_away(&motion))
+                .chain(lift)
                 .map(|step| motion.iter().zip(step).map(|(r, step)| r + step).collect::<Vec<f64>>())
                 .map(|moved| (self.nearest(&moved), moved))
                 .filter(|(to, _)| *to < nearest)
@@ -204,7 +203,7 @@ impl<'c, R: Relation> Balance<'c, R> {
 
     /// The motion that takes away the approach of the pairs that move towards their obstacles or along them, to first order
     /// in the slip, and brings to rest those that nearly are, by least squares.
-    fn step_away(&self, motion: &[f64]) -> Option<Vec<f64>> {
+    fn step_away(&self, motion: &[f64]) -> Vec<f64> {
         let dim = self.contact.dim();
         let size = self.motions.size(motion);
         let mut equations = Vec::new();
@@ -222,7 +221,7 @@ impl<'c, R: Relation> Balance<'c, R> {
                 false => UNIT_FORCES[..dim].iter().for_each(|force| ask(force)),
             }
         }
-        Some(self.motions.motion(&least_squares(&equations, self.motions.basis.len())?))
+        self.motions.motion(&solved(&equations, self.motions.basis.len()))
     }
 
     /// The least motion that lifts every pair off its obstacle, to first order in the slip, from a motion on which pairs
@@ -262,21 +261,13 @@ impl<'c, R: Relation> Balance<'c, R> {
 }
 
 /// The `n` unknowns of equations, rows and right sides, by least squares; 0 for those that the equations do not tell.
-fn least_squares(equations: &[(Vec<f64>, f64)], n: usize) -> Option<Vec<f64>> {
-    let product =
-        |i: usize, j: usize| equations.iter().map(|(row, _)| row[i] * row[j]).sum::<f64>();
-    let size: Vec<f64> = (0..n).map(|i| product(i, i).sqrt()).collect();
-    let told: Vec<usize> = (0..n).filter(|&i| size[i] > NEGLIGIBLE).collect();
-    let unit = |i: usize, j: usize| product(told[i], told[j]) / (size[told[i]] * size[told[j]]);
-    let gram = PivotedCholesky::new(told.len(), unit)?;
-    let own = |i: usize| equations.iter().map(|(row, right)| row[i] * right).sum::<f64>() / size[i];
-    let mut x: Vec<f64> = gram.independent.iter().map(|&k| own(told[k])).collect();
-    gram.solve(&mut x);
-    let mut all = vec![0.0; n];
-    for (&k, x) in gram.independent.iter().zip(&x) {
-        all[told[k]] = x / size[told[k]];
-    }
-    Some(all)
+fn solved(equations: &[(Vec<f64>, f64)], n: usize) -> Vec<f64> {
+    let column = |i: usize| -> Vec<f64> {
+        let own: Vec<f64> = equations.iter().map(|(row, _)| row[i]).collect();
+        if norm(&own) > NEGLIGIBLE { own } else { vec![0.0; own.len()] }
+    };
+    let right: Vec<f64> = equations.iter().map(|(_, right)| *right).collect();
+    least_squares((0..n).map(column), &right)
 }
 
 #[cfg(test)]
