@@ -115,6 +115,47 @@ fn what_rounding_leaves_of_an_approach_is_lifted() {
     }
 }
 
+/// A pair of two that nearly rests while the other one leaves is lifted so far that no force of its cone does negative work
+/// on it, wherever it was going, and no further than along the normal: by `r_n + sqrt(2) mu |r_t|` at most, as four forces
+/// stand for the cone. A millionth of the largest motion is rest, in any unit.
+#[test]
+fn a_pair_that_nearly_rests_is_lifted_off_all_forces_of_its_cone() {
+    let k: Vec<f64> = (0..36).map(|i| if i % 7 == 0 { 1.0 } else { 0.0 }).collect();
+    let rng = &mut Rng::with_seed(1);
+    for seed in 0..100 {
+        let mu = [0.1, 0.5, 2.0][seed % 3];
+        let data = ContactData {
+            dim: 3,
+            pairs: 2,
+            stiffness: &k,
+            ld: 6,
+            load: &[0.0; 6],
+            gap: &[0.0; 2],
+            law: FrictionLaw::Coulomb(&[mu; 2]),
+            reference_slip: None,
+        };
+        let problem = ContactProblem::new(data).expect("valid data");
+        let contact = Contact::new(&problem);
+        let unit = |i: usize| (0..6).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
+        let basis = (0..4).map(unit).collect();
+        let motions = RigidMotions { root: problem.unit_roots(), basis };
+        let balance = Balance::of(&contact, motions, |_| true);
+        let size = 2.0_f64.powi(rng.i32(-30..=30));
+        let own: [f64; 3] = std::array::from_fn(|_| size * 1e-8 * (rng.f64() - 0.5));
+        let motion = [own[0].abs(), own[1], own[2], -size, 0.0, 0.0];
+        assert!(balance.moves(1, &motion[3..], size) && !balance.moves(0, &motion[..3], size));
+        let approach = motion[0] + mu * own[1].hypot(own[2]);
+        assert_eq!(balance.nearest(&motion), approach);
+        let lift = balance.least_lift(&motion, approach).expect("the normal is free");
+        let lifted: Vec<f64> = motion.iter().zip(&lift).map(|(r, lift)| r + lift).collect();
+        // Ten times the slope of the projection that is still taken for rounding, 1e-13.
+        assert!(balance.nearest(&lifted) <= 1e-12 * approach, "{seed}: {lifted:?}");
+        let length = lift.iter().map(|r| r * r).sum::<f64>().sqrt();
+        let most = motion[0] + 2.0_f64.sqrt() * mu * own[1].hypot(own[2]);
+        assert!(length <= (1.0 + 1e-12) * most, "{seed}: {length:e} {most:e}");
+    }
+}
+
 /// Equations of whole numbers that have a solution are solved by it, in whatever units the unknowns are, and an unknown that
 /// none of them has is 0. A determinant of columns of length 1 below .1 is not tried: it multiplies the rounding.
 #[test]
