@@ -116,34 +116,3 @@ fn above(matrix: &Columns, shift: f64, doubt: f64, goes_on: GoesOn<'_>) -> Optio
     let proved = (shift - most).next_down();
     (proved > 0.0).then_some(proved)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The matrix 2 on the diagonal, −1 beside it, has the least eigenvalue `4 sin²(π / (2 (n + 1)))`.
-    #[test]
-    fn the_bound_is_below_the_least_eigenvalue() {
-        for n in [1_usize, 2, 5, 40, 200] {
-            let fill = |j: usize, column: &mut [f64]| {
-                column[j] = 2.0;
-                for i in [j.wrapping_sub(1), j + 1] {
-                    if let Some(entry) = column.get_mut(i) {
-                        *entry = -1.0;
-                    }
-                }
-            };
-            let bound = Definite::new(n, fill, &mut || true).expect("it is definite").least;
-            let exact = 4.0 * (std::f64::consts::PI / (2.0 * (n as f64 + 1.0))).sin().powi(2);
-            assert!(bound <= exact && bound > 0.04 * exact, "{n}: {bound:e}, {exact:e}");
-        }
-        // Singular, and indefinite.
-        for beside in [1.0, 1.5] {
-            let fill = |j: usize, column: &mut [f64]| {
-                column.fill(beside);
-                column[j] = 1.0;
-            };
-            assert!(Definite::new(2, fill, &mut || true).is_none());
-        }
-    }
-}

@@ -44,25 +44,3 @@ pub fn dot_in_own_unit(a: &[f64], b: &[f64]) -> (f64, f64) {
     }
     (sum, size)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exponents_are_exact() {
-        for e in -1074..1024 {
-            let power = times_power_of_two(1.0, e);
-            assert_eq!(exponent(power), e);
-            assert_eq!(exponent(-power), e);
-            assert_eq!(times_power_of_two(power, -e), 1.0);
-        }
-        assert_eq!(exponent(f64::MAX), 1023);
-        assert_eq!(times_power_of_two(1.5, 2000), f64::INFINITY);
-        assert_eq!(times_power_of_two(1.5, -2200), 0.0);
-        assert_eq!(largest_exponent([0.0, 5e-324, -3.0]), Some(1));
-        assert_eq!(largest_exponent([0.0]), None);
-        assert_eq!(dot_in_own_unit(&[1e308, 1.0], &[-1.5e308, 1e-320]).0.signum(), -1.0);
-        assert_eq!(dot_in_own_unit(&[0.0, 5e-324], &[1.0, 5e-324]), (1.0, 1.0));
-    }
-}

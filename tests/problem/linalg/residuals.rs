@@ -1,0 +1,53 @@
+//! Residuals in twice the precision, and the largest matrix.
+
+use super::ball::UNIT;
+use super::matrix::{Matrix, can_exist};
+use super::vector::sizes;
+use crate::common::quad::Quad;
+
+/// A residual that cancels to the last digits of its terms, against inner products in twice the precision. Each of their
+/// `2 n + 1` additions is off by `3 u²` of both parts, all together by `12 (n + 2) u²` of the sum of sizes: the bound that
+/// the residual is documented with, `16 (n + 2)² u²`, and a quarter more are above both errors; the result is rounded.
+#[test]
+fn residuals_that_cancel_are_right() {
+    let mut rng = fastrand::Rng::with_seed(2);
+    for n in (1..40).chain([200]) {
+        let mut number = || (rng.f64() - 0.5) * 10_f64.powi(rng.i32(-6..6));
+        let entries: Vec<f64> = (0..n * n).map(|_| number()).collect();
+        let x: Vec<f64> = (0..n).map(|_| number()).collect();
+        let low: Vec<f64> = x.iter().map(|x| 0.3 * UNIT * x).collect();
+        let matrix = Matrix::new(n, &entries, n);
+        let (b, terms) = (matrix.product(&x), matrix.magnitude(&sizes(&x)));
+        let residual = matrix.residual(&x, &low, &b, &terms);
+        for i in 0..n {
+            let times = |j: usize, x: f64| Quad::product(matrix.at(i, j), x);
+            let exact: Quad = (0..n).map(|j| times(j, x[j]) + times(j, low[j])).sum();
+            let error = (exact - Quad::from(b[i]) - Quad::from(residual[i])).value().abs();
+            let squared = (UNIT * (n + 2) as f64).powi(2);
+            let bound = 20.0 * squared * (terms[i] + b[i].abs()) + UNIT * residual[i].abs();
+            assert!(error <= bound, "{n}: row {i}: {error:e} > {bound:e}");
+        }
+    }
+}
+
+/// 2^30 rows of as many doubles are 2^63 bytes, one more than the language has for an array.
+#[test]
+fn no_matrix_is_larger_than_half_of_all_addresses() {
+    assert!(can_exist((1 << 30) - 1) && !can_exist(1 << 30) && !can_exist(usize::MAX));
+}
+
+/// Powers of two are no rounding: scaled data give scaled bits, from small numbers to large ones.
+#[test]
+fn residuals_scale_with_their_data() {
+    let (entries, x, b) = ([3.1, -2.7, 0.3, 1e-9], [0.7, 1.3], [1.4, 0.1]);
+    let residual = |power: i32| -> Vec<f64> {
+        let by = 2_f64.powi(power);
+        let (entries, b) = (entries.map(|entry| by * entry), b.map(|b| by * b));
+        let matrix = Matrix::new(2, &entries, 2);
+        let residual = matrix.residual(&x, &[], &b, &matrix.magnitude(&x));
+        residual.iter().map(|residual| residual / by).collect()
+    };
+    for power in [-800, -60, 1, 60, 1000] {
+        assert_eq!(residual(power), residual(0), "2^{power}");
+    }
+}
