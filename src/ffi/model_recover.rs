@@ -6,7 +6,6 @@ use super::case_arguments::times;
 use super::guard::{self, Failure};
 use super::model::SignoriniModel;
 use crate::error::Argument;
-use crate::model::BLOCK;
 use crate::reduce::SolvedCase;
 
 /// Your displacements from the relative ones, a column for each case; many cases of a sparse
@@ -45,18 +44,9 @@ pub unsafe extern "C" fn signorini_model_recover(
             prescribed: values.map(|values| &values[fixed * k..fixed * (k + 1)]),
             d: &d[n * k..n * (k + 1)],
         };
-        // Nothing is written if a case is wrong.
-        let refused = |error| Failure::from_error(error, position);
-        for k in 0..cases {
-            model.check_case(&case(k), k, cases).map_err(refused)?;
-        }
-        for begin in (0..cases).step_by(BLOCK) {
-            let block: Vec<_> = (begin..cases.min(begin + BLOCK)).map(case).collect();
-            let recovered = model.recover_block(&block, begin, cases).map_err(refused)?;
-            for (k, u) in (begin..).zip(recovered) {
-                out.part(host * k, host).write(&u);
-            }
-        }
+        let write = |k: usize, u: Vec<f64>| out.part(host * k, host).write(&u);
+        let recovered = model.recover_each(cases, case, write);
+        recovered.map_err(|error| Failure::from_error(error, position))?;
         Ok(0)
     })
 }

@@ -93,85 +93,81 @@ unsafe impl Structure for SignoriniOperator {
         &[std::mem::offset_of!(Self, unknowns), std::mem::offset_of!(Self, accuracy)];
 }
 
-/// The functions of a host.
-struct Functions {
-    stiffness: unsafe extern "C" fn(*mut c_void, *const f64, *mut f64) -> i32,
-    inverse: SignoriniProductFn,
-    held: SignoriniHeldFn,
-    user: *mut c_void,
-    /// 0: the default.
-    accuracy: f64,
-}
+/// The functions of a host: those that a checked structure names.
+struct Functions(SignoriniOperator);
 
 // SAFETY: the header demands that a host's functions may be called from the threads on which it calls the library
-// with this model.
+// with this model; its arrays are not read any more.
 unsafe impl Send for Functions {}
 // SAFETY: as above.
 unsafe impl Sync for Functions {}
 
-fn answered(number: i32) -> Result<(), i32> {
-    if number == 0 { Ok(()) } else { Err(number) }
+impl Functions {
+    /// The answer of a function of the host to its first argument; -1 where there is no function.
+    fn asked<F>(
+        &self,
+        function: Option<F>,
+        ask: impl FnOnce(F, *mut c_void) -> i32,
+    ) -> Result<(), i32> {
+        let Some(function) = function else { return Err(-1) };
+        match in_host(|| ask(function, self.0.user)) {
+            0 => Ok(()),
+            number => Err(number),
+        }
+    }
+
+    fn product(&self, function: SignoriniProductFn, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        // SAFETY: the header demands a function of this type that returns normally and writes as many entries as it reads.
+        self.asked(function, |function, user| unsafe { function(user, x.as_ptr(), y.as_mut_ptr()) })
+    }
+}
+
+fn numbers(held: &[bool]) -> Vec<i32> {
+    held.iter().map(|held| i32::from(*held)).collect()
 }
 
 impl HostOperator for Functions {
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        // SAFETY: the header demands a function of this type that returns normally and writes N entries.
-        answered(in_host(|| unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) }))
+        self.product(self.0.stiffness, x, y)
     }
 
     fn accuracy(&self) -> f64 {
-        if self.accuracy == 0.0 { AGREES } else { self.accuracy }
+        if self.0.accuracy == 0.0 { AGREES } else { self.0.accuracy }
     }
 
     fn has_inverse(&self) -> bool {
-        self.inverse.is_some()
+        self.0.inverse.is_some()
     }
 
     fn inverse(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        let Some(inverse) = self.inverse else { return Err(-1) };
-        // SAFETY: as above.
-        answered(in_host(|| unsafe { inverse(self.user, x.as_ptr(), y.as_mut_ptr()) }))
+        self.product(self.0.inverse, x, y)
     }
 
     fn has_held(&self) -> bool {
-        self.held.is_some()
+        self.0.held.is_some()
     }
 
     fn held(&self, held: &[bool], changed: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        let Some(solve) = self.held else { return Err(-1) };
-        let held: Vec<i32> = held.iter().map(|held| i32::from(*held)).collect();
-        let (changed, x, y) = (i32::from(changed), x.as_ptr(), y.as_mut_ptr());
-        // SAFETY: as above; `held` has N entries too.
-        answered(in_host(|| unsafe { solve(self.user, held.as_ptr(), changed, x, y) }))
+        let (held, changed) = (numbers(held), i32::from(changed));
+        self.asked(self.0.held, |solve, user| {
+            // SAFETY: as above; `held` has N entries too.
+            unsafe { solve(user, held.as_ptr(), changed, x.as_ptr(), y.as_mut_ptr()) }
+        })
     }
 }
 
-/// The functions of a host on all of its unknowns.
-struct OfAllUnknowns {
-    stiffness: unsafe extern "C" fn(*mut c_void, *const f64, *mut f64) -> i32,
-    precondition:
-        unsafe extern "C" fn(*mut c_void, *const i32, *const f64, i32, *const f64, *mut f64) -> i32,
-    user: *mut c_void,
-}
-
-// SAFETY: as of `Functions`.
-unsafe impl Send for OfAllUnknowns {}
-// SAFETY: as above.
-unsafe impl Sync for OfAllUnknowns {}
-
-impl PreconditionedOperator for OfAllUnknowns {
+impl PreconditionedOperator for Functions {
     fn product(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        // SAFETY: as of `Functions`; it writes as many entries as there are unknowns.
-        answered(in_host(|| unsafe { (self.stiffness)(self.user, x.as_ptr(), y.as_mut_ptr()) }))
+        self.product(self.0.stiffness, x, y)
     }
 
     fn precondition(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
-        let components: Vec<i32> = held.components.iter().map(|held| i32::from(*held)).collect();
         let (springs, changed) = (held.springs.as_ptr(), i32::from(held.changed));
-        let (held, r, z) = (components.as_ptr(), r.as_ptr(), z.as_mut_ptr());
-        let (precondition, user) = (self.precondition, self.user);
-        // SAFETY: as above; `held` and `springs` have as many entries as the header says.
-        answered(in_host(|| unsafe { precondition(user, held, springs, changed, r, z) }))
+        let held = numbers(held.components);
+        self.asked(self.0.precondition, |solve, user| {
+            // SAFETY: as above; `held` and `springs` have as many entries as the header says.
+            unsafe { solve(user, held.as_ptr(), springs, changed, r.as_ptr(), z.as_mut_ptr()) }
+        })
     }
 }
 
@@ -212,7 +208,11 @@ pub unsafe extern "C" fn signorini_model_new_operator(
 }
 
 fn wrong(message: &str) -> Failure {
-    Failure::argument(1, message.to_owned())
+    Failure::argument(1, message)
+}
+
+fn check_stiffness(given: &SignoriniOperator) -> Result<(), Failure> {
+    given.stiffness.map(|_| ()).ok_or_else(|| wrong("K: stiffness is NULL"))
 }
 
 /// The model of products and solutions of the pairs.
@@ -221,15 +221,13 @@ fn of_pairs(
     given: &SignoriniOperator,
 ) -> Result<Result<Model, Error>, Failure> {
     let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
-    let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+    check_stiffness(given)?;
     if given.precondition.is_some() {
         return Err(wrong("K: precondition needs unknowns, their number"));
     }
     let units = arrays.optional(1, "units", given.units, n)?;
-    let SignoriniOperator { inverse, held, user, accuracy, .. } = *given;
-    let functions = Box::new(Functions { stiffness, inverse, held, user, accuracy });
     guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
-    Ok(Model::operator(dim, pairs, functions, units))
+    Ok(Model::operator(dim, pairs, Box::new(Functions(*given)), units))
 }
 
 /// The model of products and a preconditioner on all unknowns.
@@ -239,8 +237,8 @@ fn of_all_unknowns(
 ) -> Result<Result<Model, Error>, Failure> {
     let (dim, _, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
     let unknowns = size(1, "unknowns", given.unknowns)?;
-    let stiffness = given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
-    let precondition = given.precondition.ok_or_else(|| wrong("K: precondition is NULL"))?;
+    check_stiffness(given)?;
+    given.precondition.ok_or_else(|| wrong("K: precondition is NULL"))?;
     if given.inverse.is_some() || given.held.is_some() {
         return Err(wrong(
             "K: inverse and held are those of the pairs: with unknowns give precondition alone",
@@ -249,9 +247,8 @@ fn of_all_unknowns(
     let units = arrays.required(1, "units", given.units, unknowns)?;
     let place = arrays.required(1, "place", given.place, n)?;
     let place = shifted(1, "place", place, 0)?;
-    let functions = Box::new(OfAllUnknowns { stiffness, precondition, user: given.user });
     guard::reserve(VECTORS.saturating_mul(unknowns).saturating_mul(size_of::<f64>()))?;
-    Ok(Model::preconditioned(dim, functions, units, &place))
+    Ok(Model::preconditioned(dim, Box::new(Functions(*given)), units, &place))
 }
 
 /// Vectors that the check of an operator takes.

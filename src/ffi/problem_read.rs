@@ -7,7 +7,7 @@ use super::args::c_entry;
 use super::guard;
 use super::handle::release;
 use super::law;
-use super::structures::{address, show};
+use super::structures::address;
 use crate::file::{self, Kind, ProblemFile};
 
 /// A contact problem, of signorini_solve.
@@ -87,8 +87,11 @@ pub unsafe extern "C" fn signorini_problem_view(
     problem: *const SignoriniProblem,
     data: *mut SignoriniProblemData,
 ) -> i32 {
-    // SAFETY: NULL or a problem, and NULL or a structure that begins with its size, by the header's contract.
-    unsafe { show("problem", problem, data, SignoriniProblem::shown) }
+    c_entry!(|arrays| {
+        let shown = arrays.handle(1, "problem", problem)?.shown();
+        arrays.out_structure(2, "data", data)?.write(0, &shown);
+        Ok(0)
+    })
 }
 
 impl From<ProblemFile> for SignoriniProblem {

@@ -136,7 +136,7 @@ pub(super) struct ParsedSettings {
     /// At least 1.
     pub(super) threads: usize,
     pub(super) progress: SignoriniProgressFn,
-    user: *mut c_void,
+    pub(super) user: *mut c_void,
 }
 
 // SAFETY: led by its size; numbers, a pointer and a callback.
@@ -221,30 +221,22 @@ impl ParsedSettings {
 
     /// The caller's callback as a closure, if there is one.
     pub(super) fn progress(&self) -> Option<impl FnMut(&Progress) -> ControlFlow<()> + use<>> {
-        callback(self.progress, self.user)
+        let (progress, user) = (self.progress?, self.user);
+        Some(move |told: &Progress| {
+            let told = SignoriniProgress {
+                iterations: told.iterations as i64,
+                eta: told.eta,
+                elapsed: told.elapsed,
+                reduced: told.reduced,
+                memory: told.memory as i64,
+            };
+            // SAFETY: the header demands a function of this type that returns normally.
+            match in_host(|| unsafe { progress(user, &raw const told) }) {
+                0 => ControlFlow::Continue(()),
+                _ => ControlFlow::Break(()),
+            }
+        })
     }
-}
-
-/// A caller's callback as a closure, if there is one.
-pub(super) fn callback(
-    progress: SignoriniProgressFn,
-    user: *mut c_void,
-) -> Option<impl FnMut(&Progress) -> ControlFlow<()> + use<>> {
-    let progress = progress?;
-    Some(move |told: &Progress| {
-        let told = SignoriniProgress {
-            iterations: told.iterations as i64,
-            eta: told.eta,
-            elapsed: told.elapsed,
-            reduced: told.reduced,
-            memory: told.memory as i64,
-        };
-        // SAFETY: the header demands a function of this type that returns normally.
-        match in_host(|| unsafe { progress(user, &raw const told) }) {
-            0 => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        }
-    })
 }
 
 numbers! {

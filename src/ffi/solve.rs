@@ -9,7 +9,7 @@ use super::guard::{self, Failure};
 use super::outputs::OutputArguments;
 use super::report::SignoriniReport;
 use super::settings::{SignoriniSettings, WarmStart};
-use super::status::remember_result;
+use super::status::{is_told, remember};
 use crate::error::Argument;
 use crate::problem::ContactProblem;
 use crate::solve::{memory, memory_of_ties, solve};
@@ -82,7 +82,9 @@ pub unsafe extern "C" fn signorini_solve(
         });
         let solution = solved.map_err(from_error)?;
         let status = outputs.write(0, &solution);
-        remember_result(solution);
+        if is_told(&solution) {
+            remember(solution.message);
+        }
         Ok(status)
     })
 }

@@ -138,14 +138,7 @@ pub(super) fn remember(message: impl Into<Message>) {
     FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
 }
 
-/// Keeps the sentence of a result: why it is no solution, or the remarks on one.
-pub(super) fn remember_result(solution: Solution) {
-    if is_told(&solution) {
-        remember(solution.message);
-    }
-}
-
-/// True if a host should read the sentence of a result.
+/// True if a host should read the sentence of a result: why it is no solution, or the remarks on one.
 pub(super) fn is_told(solution: &Solution) -> bool {
     solution.status != Status::Solved || solution.remarks != Remarks::default()
 }

@@ -287,25 +287,6 @@ pub(super) unsafe fn fill<T: Structure>(name: &str, pointer: *mut T, struct_size
     })
 }
 
-/// Shows what a handle holds in the caller's structure.
-///
-/// # Safety
-/// NULL or a handle of this library; NULL or a structure of the caller that begins with its size.
-pub(super) unsafe fn show<H, T>(
-    name: &str,
-    handle: *const H,
-    data: *mut T,
-    shown: impl FnOnce(&H) -> T,
-) -> i32 {
-    guard::call(|| {
-        // SAFETY: by the caller's contract.
-        let arrays = unsafe { Arrays::of_call() };
-        let handle = arrays.handle(1, name, handle)?;
-        arrays.out_structure(2, "data", data)?.write(0, &shown(handle));
-        Ok(0)
-    })
-}
-
 /// The address of an array that a handle holds, NULL if it has no entries.
 pub(super) fn address<T>(values: &[T]) -> *const T {
     if values.is_empty() { std::ptr::null() } else { values.as_ptr() }

@@ -87,9 +87,8 @@ pub unsafe extern "C" fn signorini_surface_pair(
             slave: SignoriniFaces::view(&host.slave),
             master: SignoriniFaces::view(&master),
         };
-        let received = &host.received;
-        let found =
-            received.monitored(|monitor| pair_surfaces(&surfaces, &received.settings, monitor));
+        let ParsedSurfaceSettings { settings, limits, .. } = &host.received;
+        let found = limits.monitored(|monitor| pair_surfaces(&surfaces, settings, monitor));
         let kept = || {
             KeptSurfaces::new((surfaces.dim, surfaces.coordinates), surfaces.slave, surfaces.master)
         };
@@ -126,7 +125,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
         let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.numbering.base, obstacle)?;
         let given = &received.settings;
         let host_side = (*dim, *coordinates);
-        let found = received.monitored(|monitor| match &obstacle {
+        let found = received.limits.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {
                 let found = pair_with_obstacle(*dim, coordinates, slave, shape, given, monitor)?;
                 Ok((found, KeptSurfaces::against_shape(host_side, slave, *shape)))

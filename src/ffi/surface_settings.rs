@@ -5,11 +5,10 @@ use libc::c_void;
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::numbers::{Numbered, numbers};
-use super::settings::{SignoriniProgressFn, callback};
+use super::settings::{ParsedSettings, SignoriniProgressFn, WarmStart};
 use super::sparse::shifted;
 use super::structures::{self, Structure, chosen};
 use super::surface::SignoriniObstacle;
-use crate::monitor::{Monitor, ProgressFn};
 use crate::settings::Settings;
 use crate::surface::{NodeDofs, Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
 
@@ -122,19 +121,8 @@ impl Numbering {
 pub(super) struct ParsedSurfaceSettings {
     pub(super) settings: SurfaceSettings,
     pub(super) numbering: Numbering,
-    time_limit: f64,
-    progress: SignoriniProgressFn,
-    user: *mut c_void,
-}
-
-impl ParsedSurfaceSettings {
-    /// Does work that the settings limit and the caller's callback watches.
-    pub(super) fn monitored<T>(&self, work: impl FnOnce(&mut Monitor<'_>) -> T) -> T {
-        let mut progress = callback(self.progress, self.user);
-        let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
-        let limits = Settings { time_limit: self.time_limit, ..Settings::default() };
-        work(&mut Monitor::new(&limits, progress))
-    }
+    /// The limit of time and the callback.
+    pub(super) limits: ParsedSettings,
 }
 
 // SAFETY: led by its size; numbers, pointers and a callback.
@@ -184,7 +172,6 @@ impl SignoriniSurfaceSettings {
             given.shape(arrays, (position, "settings: slave_shape"), dim, given.slave_shape)?,
             given.shape(arrays, (position, "settings: master_shape"), dim, given.master_shape)?,
         ];
-        let SignoriniSurfaceSettings { close_within, clearance, .. } = given;
         let settings = SurfaceSettings {
             pairing,
             search_distance,
@@ -193,17 +180,24 @@ impl SignoriniSurfaceSettings {
             rims,
             axisymmetric,
             shapes,
-            close_within,
-            clearance,
+            close_within: given.close_within,
+            clearance: given.clearance,
         };
-        let SignoriniSurfaceSettings { time_limit, progress, user, .. } = given;
+        let time_limit = given.time_limit;
         // Written so that NaN is refused.
         if !(time_limit >= 0.0) {
             let message = "it must be 0 (none) or a number of seconds";
             return refuse(format!("settings: time_limit is {time_limit}, {message}"));
         }
         let numbering = Numbering { base, per_node, listed };
-        Ok(ParsedSurfaceSettings { settings, numbering, time_limit, progress, user })
+        let limits = ParsedSettings {
+            settings: Settings { time_limit, ..Settings::default() },
+            warm_start: WarmStart::None,
+            threads: 1,
+            progress: given.progress,
+            user: given.user,
+        };
+        Ok(ParsedSurfaceSettings { settings, numbering, limits })
     }
 
     /// The true shape of a side.

@@ -2,8 +2,9 @@
 
 use libc::c_char;
 
+use super::args::c_entry;
 use super::pairs::SignoriniPairs;
-use super::structures::{address, show};
+use super::structures::address;
 use super::surface_new::SignoriniSurfacePairs;
 
 /// Pairs from surfaces, and the faces and nodes without any. Arrays live as long as the pairs; one
@@ -85,8 +86,11 @@ pub unsafe extern "C" fn signorini_surface_view(
     contact: *const SignoriniSurfacePairs,
     data: *mut SignoriniSurfaceData,
 ) -> i32 {
-    // SAFETY: NULL or pairs, and NULL or a structure that begins with its size, by the header's contract.
-    unsafe { show("contact", contact, data, SignoriniSurfacePairs::shown) }
+    c_entry!(|arrays| {
+        let shown = arrays.handle(1, "contact", contact)?.shown();
+        arrays.out_structure(2, "data", data)?.write(0, &shown);
+        Ok(0)
+    })
 }
 
 impl SignoriniSurfacePairs {

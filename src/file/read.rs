@@ -168,7 +168,9 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
         Kind::Lcp => {}
     }
     let has_covering = kind == Kind::Lcp && more == Some(*LCP_COLUMNS.end());
-    check_memory(lines, size)?;
+    if problem::unknowns(1, size).is_err() {
+        return Err(lines.refuse(&format!("{size} rows: the matrix cannot exist")));
+    }
     // It may be shown on a terminal, which control characters command.
     let remark = comments.found.get("remark").map(|(_, remark)| remark.as_str());
     let remark = remark.unwrap_or_default().replace(char::is_control, " ");
@@ -239,12 +241,5 @@ fn sizes(lines: &Lines<'_>) -> Result<(usize, usize), Error> {
     match numbers[..] {
         [Ok(rows), Ok(columns)] => Ok((rows, columns)),
         _ => Err(lines.refuse(&format!("not two sizes, rows and columns: {}", shown(&text)))),
-    }
-}
-
-fn check_memory(lines: &Lines<'_>, size: usize) -> Result<(), Error> {
-    match size.checked_mul(size) {
-        Some(entries) if entries <= isize::MAX as usize / size_of::<f64>() => Ok(()),
-        _ => Err(lines.refuse(&format!("{size} rows: the matrix cannot exist"))),
     }
 }

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::errors::{failed, refuse};
 use super::format::{BANNER, MOST_REMARK, TITLE, VERSION};
-use crate::error::{Argument, Error, entry};
-use crate::problem::{ContactProblem, Lcp};
+use crate::error::{Argument, Error};
+use crate::problem::{ContactProblem, Lcp, check_finite_matrix};
 
 /// Writes a contact problem to the file `path`, which is replaced if it exists. The remark is one
 /// line.
@@ -19,11 +19,7 @@ use crate::problem::{ContactProblem, Lcp};
 /// was.
 pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
     let (dim, n, pairs, law) = (problem.dim(), problem.unknowns(), problem.pairs(), problem.law());
-    for j in 0..n {
-        if let Some(i) = problem.column(j).iter().position(|k| !k.is_finite()) {
-            return Err(Error::invalid(Argument::Matrix, entry("K", [i, j]) + " is not finite"));
-        }
-    }
+    check_finite_matrix(Argument::Matrix, "K", &problem.stiffness())?;
     // A value of each pair in its normal row.
     let in_normal_rows = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..n).map(|i| if i % dim == 0 { value(i / dim) } else { 0.0 }).collect()

@@ -28,38 +28,36 @@ impl Model {
     /// # Errors
     /// As of [`Self::recover`], with the number of the case if there are several.
     pub fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
-        for (k, case) in cases.iter().enumerate() {
-            self.check_case(case, k, cases.len())?;
-        }
         let mut found = Vec::with_capacity(cases.len());
-        for block in cases.chunks(BLOCK) {
-            found.extend(self.recover_block(block, found.len(), cases.len())?);
-        }
+        self.recover_each(cases.len(), |k| cases[k], |_, u| found.push(u))?;
         Ok(found)
     }
 
-    /// As [`Self::recover_cases`], of checked cases from `first` on, of `all`.
-    pub(crate) fn recover_block(
+    /// As [`Self::recover_cases`] of so many cases, each handed over with its number. None is if the arrays of one are wrong,
+    /// and none of a block in which one overflows.
+    pub(crate) fn recover_each<'c>(
         &self,
-        block: &[SolvedCase<'_>],
-        first: usize,
-        all: usize,
-    ) -> Result<Vec<Vec<f64>>, Error> {
-        let recovered = self.reduction.recover_cases(block)?;
-        let checked = (first..).zip(recovered).map(|(k, u)| {
-            not_overflown(Argument::Start, "u", u).map_err(|error| of_case(error, k, all))
-        });
-        checked.collect()
-    }
-
-    /// Refuses the arrays of case `k` of `all` if they are of the wrong length or not finite.
-    pub(crate) fn check_case(
-        &self,
-        case: &SolvedCase<'_>,
-        k: usize,
-        all: usize,
+        count: usize,
+        case: impl Fn(usize) -> SolvedCase<'c>,
+        mut take: impl FnMut(usize, Vec<f64>),
     ) -> Result<(), Error> {
-        self.check_solved(case).map_err(|error| of_case(error, k, all))
+        // Of several it names the number.
+        let of_case = |error: Error, k| if count == 1 { error } else { error.in_case(k) };
+        for k in 0..count {
+            self.check_solved(&case(k)).map_err(|error| of_case(error, k))?;
+        }
+        for begin in (0..count).step_by(BLOCK) {
+            let block: Vec<_> = (begin..count.min(begin + BLOCK)).map(&case).collect();
+            let recovered = (begin..).zip(self.reduction.recover_cases(&block)?);
+            let checked = recovered.map(|(k, u)| {
+                let u =
+                    not_overflown(Argument::Start, "u", u).map_err(|error| of_case(error, k))?;
+                Ok((k, u))
+            });
+            let checked: Vec<_> = checked.collect::<Result<_, Error>>()?;
+            checked.into_iter().for_each(|(k, u)| take(k, u));
+        }
+        Ok(())
     }
 
     /// Refuses arrays of the wrong length or not finite.
@@ -76,11 +74,6 @@ impl Model {
         check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
         not_overflown(Argument::Load, "nodal", self.reduction.nodal_forces(force))
     }
-}
-
-/// An error of case `k` of `all`: of several it names the number.
-fn of_case(error: Error, k: usize, all: usize) -> Error {
-    if all == 1 { error } else { error.in_case(k) }
 }
 
 /// The values, if they are finite: they were made of finite numbers.

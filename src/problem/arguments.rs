@@ -63,6 +63,20 @@ pub(crate) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Re
     }
 }
 
+/// Refuses the first entry of a matrix that is not finite.
+pub(crate) fn check_finite_matrix(
+    argument: Argument,
+    name: &str,
+    matrix: &Matrix<'_>,
+) -> Result<(), Error> {
+    for j in 0..matrix.size() {
+        if let Some(i) = first_not_finite(matrix.column(j)) {
+            return Err(Error::invalid(argument, entry(name, [i, j]) + " is not finite"));
+        }
+    }
+    Ok(())
+}
+
 /// A space dimension, which must be 2 or 3.
 pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
     match dim.try_into() {

@@ -108,7 +108,8 @@ impl<'a> Flexibility<'a> {
         ld: usize,
     ) -> Result<Matrix<'a>, Error> {
         let matrix = dense("W", (w, ld), size, OF_MATRIX)?;
-        symmetric_matrix::check_semi_definite(&matrix, "W", Argument::Matrix)?;
+        let root = matrix.diagonal_roots();
+        symmetric_matrix::check_beside(&matrix, &root, "W", Argument::Matrix)?;
         if size > 0 && matrix.largest_diagonal() == 0.0 {
             return Err(Error::invalid(Argument::Matrix, ZERO));
         }

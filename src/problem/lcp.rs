@@ -1,6 +1,6 @@
 //! The linear complementarity problem (LCP) `w = q + M z`, `w >= 0`, `z >= 0`, `w . z = 0`.
 
-use super::arguments::{OF_MATRIX, check_finite, check_length, dense};
+use super::arguments::{OF_MATRIX, check_finite, check_finite_matrix, check_length, dense};
 use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{
@@ -38,14 +38,7 @@ impl<'a> Lcp<'a> {
         check_length(Argument::Covering, "cover", covering.map_or(size, <[f64]>::len), size)?;
         let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { matrix, q, covering };
-        for j in 0..size {
-            if let Some(i) = first_not_finite(lcp.column(j)) {
-                return Err(Error::invalid(
-                    Argument::Matrix,
-                    entry("M", [i, j]) + " is not finite",
-                ));
-            }
-        }
+        check_finite_matrix(Argument::Matrix, "M", &matrix)?;
         check_finite(Argument::Load, "q", q)?;
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))

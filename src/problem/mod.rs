@@ -20,7 +20,9 @@ mod stiffness_operator;
 pub(crate) mod symmetric_matrix;
 mod units;
 
-pub(crate) use arguments::{OF_MATRIX, check_finite, checked_dim, dense, unknowns};
+pub(crate) use arguments::{
+    OF_MATRIX, check_finite, check_finite_matrix, checked_dim, dense, unknowns,
+};
 pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::ContactProblem;
 pub use contact_data::ContactData;

@@ -1,10 +1,10 @@
 //! Validation of a host's dense symmetric matrix.
 
+use super::arguments::check_finite_matrix;
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
-use crate::linalg::vector::first_not_finite;
 
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to it, which is
 /// positive.
@@ -41,17 +41,8 @@ pub(crate) fn check(
     check_not_zero(matrix, name, argument)
 }
 
-/// As [`check`], but a matrix of zeros passes.
-pub(crate) fn check_semi_definite(
-    matrix: &Matrix<'_>,
-    name: &str,
-    argument: Argument,
-) -> Result<(), Error> {
-    check_beside(matrix, &matrix.diagonal_roots(), name, argument)
-}
-
-/// The check beside these roots of the diagonal.
-fn check_beside(
+/// As [`check`], beside these roots of the diagonal; a matrix of zeros passes.
+pub(super) fn check_beside(
     matrix: &Matrix<'_>,
     root: &[f64],
     name: &str,
@@ -169,11 +160,7 @@ fn check_columns(
 ) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
-    for j in 0..matrix.size() {
-        if let Some(i) = first_not_finite(matrix.column(j)) {
-            return refuse(at(i, j) + " is not finite");
-        }
-    }
+    check_finite_matrix(argument, name, matrix)?;
     for j in 0..matrix.size() {
         let column = matrix.column(j);
         if root[j].is_nan() {
