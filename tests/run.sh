@@ -168,8 +168,10 @@ step() {
     shift
     echo
     echo "== $name"
+    step_began=$(date +%s)
     "$@" </dev/null
     result=$?
+    echo "== $name: $(($(date +%s) - step_began)) s"
     if [ "$result" -eq 77 ]; then
         note_skip "$name"
     elif [ "$result" -ne 0 ]; then
