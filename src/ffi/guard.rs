@@ -44,11 +44,6 @@ impl Failure {
             "not enough memory: the call may need {megabytes:.1} MB, which the system refuses; \
              nothing was done"
         );
-        Failure::out_of_memory(message)
-    }
-
-    /// There is no memory for something.
-    pub(super) fn out_of_memory(message: impl Into<Message>) -> Self {
         Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }
     }
 

@@ -199,11 +199,7 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     c_entry!(|arrays| {
         let place = arrays.out_pointer(2, "model", model)?;
         let given = arrays.required_copy(1, "K", K)?;
-        let made = match given.unknowns {
-            0 => of_pairs(arrays, &given)?,
-            _ => of_all_unknowns(arrays, &given)?,
-        };
-        place.fill(made, |_| 1)
+        place.fill(of_functions(arrays, given)?, |_| 1)
     })
 }
 
@@ -211,33 +207,26 @@ fn wrong(message: &str) -> Failure {
     Failure::argument(1, message)
 }
 
-fn check_stiffness(given: &SignoriniOperator) -> Result<(), Failure> {
-    given.stiffness.map(|_| ()).ok_or_else(|| wrong("K: stiffness is NULL"))
-}
-
-/// The model of products and solutions of the pairs.
-fn of_pairs(
+/// The model of products and solutions of the pairs, or of products and a preconditioner on all unknowns.
+fn of_functions(
     arrays: &mut Arrays<'_>,
-    given: &SignoriniOperator,
+    given: SignoriniOperator,
 ) -> Result<Result<Model, Error>, Failure> {
     let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
-    check_stiffness(given)?;
-    if given.precondition.is_some() {
-        return Err(wrong("K: precondition needs unknowns, their number"));
-    }
-    let units = arrays.optional(1, "units", given.units, n)?;
-    guard::reserve(VECTORS.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
-    Ok(Model::operator(dim, pairs, Box::new(Functions(*given)), units))
-}
-
-/// The model of products and a preconditioner on all unknowns.
-fn of_all_unknowns(
-    arrays: &mut Arrays<'_>,
-    given: &SignoriniOperator,
-) -> Result<Result<Model, Error>, Failure> {
-    let (dim, _, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
     let unknowns = size(1, "unknowns", given.unknowns)?;
-    check_stiffness(given)?;
+    given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+    let functions = Box::new(Functions(given));
+    let reserve = |vector: usize| {
+        guard::reserve(VECTORS.saturating_mul(vector).saturating_mul(size_of::<f64>()))
+    };
+    if unknowns == 0 {
+        if given.precondition.is_some() {
+            return Err(wrong("K: precondition needs unknowns, their number"));
+        }
+        let units = arrays.optional(1, "units", given.units, n)?;
+        reserve(n)?;
+        return Ok(Model::operator(dim, pairs, functions, units));
+    }
     given.precondition.ok_or_else(|| wrong("K: precondition is NULL"))?;
     if given.inverse.is_some() || given.held.is_some() {
         return Err(wrong(
@@ -247,8 +236,8 @@ fn of_all_unknowns(
     let units = arrays.required(1, "units", given.units, unknowns)?;
     let place = arrays.required(1, "place", given.place, n)?;
     let place = shifted(1, "place", place, 0)?;
-    guard::reserve(VECTORS.saturating_mul(unknowns).saturating_mul(size_of::<f64>()))?;
-    Ok(Model::preconditioned(dim, Box::new(Functions(*given)), units, &place))
+    reserve(unknowns)?;
+    Ok(Model::preconditioned(dim, functions, units, &place))
 }
 
 /// Vectors that the check of an operator takes.

@@ -165,43 +165,39 @@ impl SignoriniSettings {
         pointer: *const Self,
     ) -> Result<ParsedSettings, Failure> {
         let given = arrays.copy(position, "settings", pointer)?;
-        let received = given.parsed(position)?;
-        received.settings.validate().map_err(|error| Failure::from_error(error, |_| position))?;
-        Ok(received)
-    }
-
-    fn parsed(self, position: i32) -> Result<ParsedSettings, Failure> {
         let natural = |name: &str, value: i64, wanted: &str| {
             u64::try_from(value).map_err(|_| {
                 let message = format!("settings: {name} is {value}, it must be {wanted}");
                 Failure::argument(position, message)
             })
         };
-        let max_iterations = natural("max_iterations", self.max_iterations, "at least 1")?;
-        let memory_limit = natural("memory_limit", self.memory_limit, "0 (none) or bytes")?;
-        let threads = natural("threads", self.threads.into(), "0 (one thread) or more")?;
-        structures::check_reserved(position, "settings", self.reserved)?;
+        let max_iterations = natural("max_iterations", given.max_iterations, "at least 1")?;
+        let memory_limit = natural("memory_limit", given.memory_limit, "0 (none) or bytes")?;
+        let threads = natural("threads", given.threads.into(), "0 (one thread) or more")?;
+        structures::check_reserved(position, "settings", given.reserved)?;
+        let settings = Settings {
+            method: chosen(position, ("settings", "method"), given.method)?,
+            tolerance: given.tolerance,
+            omega: given.omega,
+            damping: given.damping,
+            max_iterations,
+            time_limit: given.time_limit,
+            search: chosen(position, ("settings", "search"), given.search)?,
+            proof: given.proof != 0,
+            memory_limit,
+            full_space: given.full_space != 0,
+        };
+        settings.validate().map_err(|error| Failure::from_error(error, |_| position))?;
         Ok(ParsedSettings {
-            settings: Settings {
-                method: chosen(position, ("settings", "method"), self.method)?,
-                tolerance: self.tolerance,
-                omega: self.omega,
-                damping: self.damping,
-                max_iterations,
-                time_limit: self.time_limit,
-                search: chosen(position, ("settings", "search"), self.search)?,
-                proof: self.proof != 0,
-                memory_limit,
-                full_space: self.full_space != 0,
-            },
-            warm_start: match self.warm_start {
+            settings,
+            warm_start: match given.warm_start {
                 0 => WarmStart::None,
                 SIGNORINI_START_PREVIOUS => WarmStart::Previous,
                 _ => WarmStart::Given,
             },
             threads: usize::try_from(threads).unwrap_or(usize::MAX).max(1),
-            progress: self.progress,
-            user: self.user,
+            progress: given.progress,
+            user: given.user,
         })
     }
 }

@@ -9,10 +9,11 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
+use super::columns::Columns;
 use super::matrix::tiles;
 use super::small_products::SMALL_PRODUCT;
 use super::vector::dot;
-use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns};
+use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns, filled};
 use crate::workers::{each, each_while, reading};
 
 /// Subtracts the products `a bᵀ` from the entries `(row(i), column(j))` of a matrix, `i < rows` and `j < columns`; of
@@ -145,22 +146,27 @@ pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
     });
 }
 
-/// `C - X Xᵀ` from the lower triangle of the symmetric `C`, both triangles; column-major. `X = B L⁻ᵀ` takes the place of
-/// `B`. `None` where `goes_on` says no, which is asked between blocks.
-pub fn subtract_coupling(
-    c: &mut [f64],
+/// `X = B L⁻ᵀ` and `C - X Xᵀ`, both triangles, column-major, from a factor `L`; `coupling` writes a column of `B`, and
+/// `corner` one of the symmetric `C` from the diagonal on, of `m` rows. `None` where `goes_on` says no, which is asked between
+/// blocks.
+pub fn schur_complement(
     lower: MatRef<'_, f64>,
-    mut b: MatMut<'_, f64>,
+    m: usize,
+    coupling: impl Fn(usize, &mut [f64]) + Sync,
+    corner: impl Fn(usize, &mut [f64]),
     goes_on: GoesOn<'_>,
-) -> Option<()> {
-    let (m, multiplications) = (b.nrows(), (lower.nrows() * b.nrows() * b.ncols()) as f64 / 2.0);
-    let rows = blocks_of_columns(b.as_mut().transpose_mut(), BLOCK);
+) -> Option<(Columns, Vec<f64>)> {
+    let mut half = filled((m, lower.nrows()), coupling, goes_on)?;
+    let mut schur = vec![0.0; m * m];
+    (0..m).for_each(|j| corner(j, &mut schur[m * j + j..m * (j + 1)]));
+    let multiplications = (lower.nrows() * lower.nrows() * m) as f64 / 2.0;
+    let rows = blocks_of_columns(half.as_mut().transpose_mut(), BLOCK);
     let divided =
         each_while(rows, multiplications, |rows| divide(lower, rows.transpose_mut()), goes_on);
-    let left = MatMut::from_column_major_slice_mut(c, m, m);
-    divided.then(|| subtract_square(left, b.as_ref(), goes_on)).flatten()?;
-    mirror(c, m);
-    Some(())
+    let left = MatMut::from_column_major_slice_mut(&mut schur, m, m);
+    divided.then(|| subtract_square(left, half.as_ref(), goes_on)).flatten()?;
+    mirror(&mut schur, m);
+    Some((half, schur))
 }
 
 /// Copies the lower triangle to the upper one.

@@ -1,12 +1,15 @@
 //! Elimination of some components of a symmetric positive definite system, by faer.
 
-use faer::linalg::triangular_solve;
-use faer::{MatMut, MatRef, Par};
+use faer::Par;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 
 use super::columns::Columns;
 use super::dense;
 use super::factor::{cholesky, cholesky_work};
 use super::matrix::Matrix;
+use super::sparse_matrix::{as_column, as_column_mut};
 use super::tolerances::SINGULAR;
 use super::watched::{GoesOn, filled};
 
@@ -38,11 +41,13 @@ impl Elimination {
         kept: Vec<usize>,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let (o, c) = (dropped.len(), kept.len());
-        let fill = |j: usize, column: &mut [f64]| {
-            let own = matrix.column(dropped[j]);
-            column[j..].iter_mut().zip(&dropped[j..]).for_each(|(entry, &i)| *entry = own[i]);
+        // The entries of a column of the matrix in these rows.
+        let take = |j: usize, rows: &[usize], column: &mut [f64]| {
+            let own = matrix.column(j);
+            column.iter_mut().zip(rows).for_each(|(entry, &i)| *entry = own[i]);
         };
+        let o = dropped.len();
+        let fill = |j: usize, column: &mut [f64]| take(dropped[j], &dropped[j..], &mut column[j..]);
         let mut lower = filled((o, o), fill, goes_on)?;
         cholesky(lower.as_mut(), goes_on)?;
         // Written so that NaN is singular too.
@@ -53,18 +58,10 @@ impl Elimination {
         if !regular {
             return None;
         }
-        let fill = |j: usize, column: &mut [f64]| {
-            let own = matrix.column(dropped[j]);
-            column.iter_mut().zip(&kept).for_each(|(entry, &i)| *entry = own[i]);
-        };
-        let mut half = filled((c, o), fill, goes_on)?;
-        let mut schur = vec![0.0; c * c];
-        for (j, &at) in kept.iter().enumerate() {
-            let column = matrix.column(at);
-            let target = &mut schur[c * j + j..c * (j + 1)];
-            target.iter_mut().zip(&kept[j..]).for_each(|(entry, &i)| *entry = column[i]);
-        }
-        dense::subtract_coupling(&mut schur, lower.as_ref(), half.as_mut(), goes_on)?;
+        let coupling = |j: usize, column: &mut [f64]| take(dropped[j], &kept, column);
+        let corner = |j: usize, column: &mut [f64]| take(kept[j], &kept[j..], column);
+        let (half, schur) =
+            dense::schur_complement(lower.as_ref(), kept.len(), coupling, corner, goes_on)?;
         Some(Elimination { dropped, kept, lower, half, schur })
     }
 
@@ -75,39 +72,25 @@ impl Elimination {
 
     /// `X L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.
     pub fn transfer(&self, b: &[f64]) -> Vec<f64> {
-        let mut half = b.to_vec();
-        self.solve_half(&mut half);
-        let product = self.half.as_ref() * as_column(&half);
+        let product = self.half.as_ref() * as_column(&self.solved_half(b));
         product.col_as_slice(0).to_vec()
     }
 
     /// `K_OO⁻¹ (b - K_OC x)`.
     pub fn follow(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut half = b.to_vec();
-        self.solve_half(&mut half);
+        let mut half = self.solved_half(b);
         let taken = self.half.as_ref().transpose() * as_column(x);
         half.iter_mut().zip(taken.col_as_slice(0)).for_each(|(half, taken)| *half -= taken);
-        self.solve_other_half(&mut half);
+        let upper = self.lower.as_ref().transpose();
+        solve_upper_triangular_in_place(upper, as_column_mut(&mut half), Par::Seq);
         half
     }
 
-    /// `L⁻¹ b`, in place.
-    fn solve_half(&self, b: &mut [f64]) {
-        let b = MatMut::from_column_major_slice_mut(b, self.lower.nrows(), 1);
-        triangular_solve::solve_lower_triangular_in_place(self.lower.as_ref(), b, Par::Seq);
+    /// `L⁻¹ b`.
+    fn solved_half(&self, b: &[f64]) -> Vec<f64> {
+        let mut half = b.to_vec();
+        let lower = self.lower.as_ref();
+        solve_lower_triangular_in_place(lower, as_column_mut(&mut half), Par::Seq);
+        half
     }
-
-    /// `L⁻ᵀ b`, in place.
-    fn solve_other_half(&self, b: &mut [f64]) {
-        let b = MatMut::from_column_major_slice_mut(b, self.lower.nrows(), 1);
-        triangular_solve::solve_upper_triangular_in_place(
-            self.lower.as_ref().transpose(),
-            b,
-            Par::Seq,
-        );
-    }
-}
-
-fn as_column(x: &[f64]) -> MatRef<'_, f64> {
-    MatRef::from_column_major_slice(x, x.len(), 1)
 }

@@ -90,17 +90,14 @@ pub fn settle(
     if factor.dependent.is_empty() {
         return Ok(false);
     }
-    for j in 0..size {
-        for i in 0..size {
-            matrix[i + size * j] /= root[i] * root[j];
+    let scale = |matrix: &mut [f64], by: fn(f64, f64) -> f64| {
+        for (column, own) in matrix.chunks_exact_mut(size).zip(&root) {
+            column.iter_mut().zip(&root).for_each(|(entry, root)| *entry = by(*entry, root * own));
         }
-    }
+    };
+    scale(matrix, |entry, roots| entry / roots);
     let settled = settle_scaled(matrix, &factor, &root, whole, goes_on);
-    for j in 0..size {
-        for i in 0..size {
-            matrix[i + size * j] *= root[i] * root[j];
-        }
-    }
+    scale(matrix, |entry, roots| entry * roots);
     settled
 }
 

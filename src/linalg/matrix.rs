@@ -210,22 +210,6 @@ impl<'a> Matrix<'a> {
             },
         );
     }
-
-    /// Visits each entry below the diagonal, `lower = at(i, j)`, with the one across it,
-    /// `upper = at(j, i)`, until an error.
-    pub fn pairs_across<E>(
-        &self,
-        visit: impl Fn(usize, usize, f64, f64) -> Result<(), E>,
-    ) -> Result<(), E> {
-        for (columns, rows) in tiles(self.size) {
-            for j in columns {
-                for i in rows.start.max(j + 1)..rows.end {
-                    visit(i, j, self.column(j)[i], self.column(i)[j])?;
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Columns and rows of square tiles, on and below the diagonal of a square matrix: what stands across the diagonal of one is

@@ -2,13 +2,14 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve;
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::{Accum, MatRef, Par};
 
 use super::columns::Columns;
 use super::dense;
 use super::factor::cholesky;
+use super::sparse_matrix::as_column_mut;
 use super::tolerances::SUSPICIOUS_PIVOT;
-use super::watched::{BLOCK, GoesOn, filled, lower_triangle};
+use super::watched::{BLOCK, GoesOn, lower_triangle};
 
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
 /// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on
@@ -62,8 +63,7 @@ impl PivotedCholesky {
 
     /// Overwrites `y`, in the order of [`Self::independent`], with `A⁻¹ y` on these rows.
     pub fn solve(&self, y: &mut [f64]) {
-        let n = self.independent.len();
-        let mut y = MatMut::from_column_major_slice_mut(y, n, 1);
+        let mut y = as_column_mut(y);
         let lower = self.lower();
         triangular_solve::solve_lower_triangular_in_place(lower, y.as_mut(), Par::Seq);
         triangular_solve::solve_upper_triangular_in_place(lower.transpose(), y, Par::Seq);
@@ -91,19 +91,13 @@ impl PivotedCholesky {
         corner: impl Fn(usize, usize) -> f64 + Sync,
         goes_on: GoesOn<'_>,
     ) -> Option<Vec<f64>> {
-        let n = self.independent.len();
-        let fill = |i: usize, column: &mut [f64]| {
+        let coupling = |i: usize, column: &mut [f64]| {
             (0..m).for_each(|j| column[j] = coupling(self.independent[i], j));
         };
-        let mut half = filled((m, n), fill, goes_on)?;
-        let mut schur = vec![0.0; m * m];
-        for j in 0..m {
-            for i in j..m {
-                schur[i + m * j] = corner(i, j);
-            }
-        }
-        dense::subtract_coupling(&mut schur, self.lower(), half.as_mut(), goes_on)?;
-        Some(schur)
+        let corner = |j: usize, column: &mut [f64]| {
+            (j..m).zip(column).for_each(|(i, entry)| *entry = corner(i, j));
+        };
+        Some(dense::schur_complement(self.lower(), m, coupling, corner, goes_on)?.1)
     }
 }
 

@@ -151,11 +151,13 @@ pub fn symmetric_residual(lower: &Csc, (x, low): (&[f64], &[f64]), b: &[f64]) ->
     sum.iter().zip(&rest).map(|(sum, rest)| sum + rest).collect()
 }
 
-fn as_column(x: &[f64]) -> MatRef<'_, f64> {
+/// A vector as a matrix.
+pub fn as_column(x: &[f64]) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice(x, x.len(), 1)
 }
 
-fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
+/// A vector as a matrix that may be written to.
+pub fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
     let length = x.len();
     MatMut::from_column_major_slice_mut(x, length, 1)
 }

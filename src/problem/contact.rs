@@ -120,15 +120,6 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix
     }
 
-    /// Copies the problem with another symmetric stiffness of the same size.
-    pub(crate) fn with_stiffness<'b>(&self, matrix: Matrix<'b>) -> ContactProblem<'b>
-    where
-        'a: 'b,
-    {
-        let relation = Stiffness::new(matrix, self.relation.load, self.dim);
-        ContactProblem { relation, ..*self }
-    }
-
     /// The problem of some of the pairs, with the block of `K` and the data that are theirs.
     pub(crate) fn on_part<'b>(
         &self,
@@ -293,19 +284,19 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         }
     }
 
-    /// Copies the problem with another matrix, loads and reference slips, of the same sizes.
+    /// Copies the problem with another symmetric matrix, loads and reference slips, of the same sizes.
     pub(crate) fn with_numbers<'b>(
         &self,
         matrix: Matrix<'b>,
         load: &'b [f64],
-        reference_slip: &'b [f64],
+        reference_slip: Option<&'b [f64]>,
     ) -> ContactProblem<'b>
     where
         'a: 'b,
     {
         let (dim, gap, law, host) = (self.dim, self.gap, self.law, self.host);
         let relation = Stiffness::new(matrix, load, dim);
-        ContactProblem { relation, dim, gap, law, reference_slip: Some(reference_slip), host }
+        ContactProblem { relation, dim, gap, law, reference_slip, host }
     }
 
     /// Gap of a pair, `+inf` if it never touches.
@@ -323,9 +314,9 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         self.law.is_tied(pair, self.gap[pair])
     }
 
-    /// All reference slips, pair by pair; empty if they are zero.
-    pub(super) fn reference_slips(&self) -> &'a [f64] {
-        self.reference_slip.unwrap_or(&[])
+    /// All reference slips, pair by pair; `None` if they are zero.
+    pub(crate) fn reference_slips(&self) -> Option<&'a [f64]> {
+        self.reference_slip
     }
 
     /// Reference slip of a pair; `component` counts from 0 to `D - 2`.

@@ -26,7 +26,8 @@ pub fn iterated(
     (forces, left): (&[f64], f64),
     goes_on: GoesOn<'_>,
 ) -> Result<Option<(Vec<f64>, u64)>, Error> {
-    let (inner, root) = (bodies.inner(), roots(bodies));
+    let root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
+    let inner = bodies.inner();
     let free = |i: usize| i < inner || !held[i - inner];
     let scaled = |forces: &[f64]| -> Vec<f64> {
         let parts = forces.iter().zip(&root).enumerate();
@@ -51,10 +52,6 @@ pub fn iterated(
         x.iter_mut().zip(z).for_each(|(x, z)| *x += share * z);
     }
     Ok(Some((x, directions.len() as u64)))
-}
-
-fn roots(bodies: &dyn StiffnessOperator) -> Vec<f64> {
-    bodies.units().iter().map(|unit| unit.sqrt()).collect()
 }
 
 impl From<Error> for Ended {

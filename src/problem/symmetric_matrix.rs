@@ -3,7 +3,7 @@
 use super::arguments::check_finite_matrix;
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::factor::first_not_definite;
-use crate::linalg::matrix::Matrix;
+use crate::linalg::matrix::{Matrix, tiles};
 use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
 
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to it, which is
@@ -68,25 +68,28 @@ fn check_across(
     name: &str,
     argument: Argument,
 ) -> Result<(), Error> {
-    let refuse = |message: String| Err(Error::invalid(argument, message));
-    let at = |i: usize, j: usize| entry(name, [i, j]);
-    matrix.pairs_across(|i, j, lower, upper| {
-        let scale = root[i] * root[j];
+    let below = tiles(matrix.size()).flat_map(|(columns, rows)| {
+        columns.flat_map(move |j| (rows.start.max(j + 1)..rows.end).map(move |i| (i, j)))
+    });
+    for (i, j) in below {
+        let (lower, upper, scale) = (matrix.at(i, j), matrix.at(j, i), root[i] * root[j]);
         let difference = (lower - upper).abs();
-        if difference > AGREES * scale {
-            let (below, above) = (at(i, j), at(j, i));
+        let message = if difference > AGREES * scale {
+            let (below, above) = (entry(name, [i, j]), entry(name, [j, i]));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
-            return refuse(format!(
+            format!(
                 "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
                 self::difference(difference / scale, &remedy)
-            ));
-        }
-        if lower.abs() > (1.0 + AGREES) * scale {
-            return refuse(beyond_diagonal(name, (i, j), lower, scale));
-        }
-        Ok(())
-    })
+            )
+        } else if lower.abs() > (1.0 + AGREES) * scale {
+            beyond_diagonal(name, (i, j), lower, scale)
+        } else {
+            continue;
+        };
+        return Err(Error::invalid(argument, message));
+    }
+    Ok(())
 }
 
 /// Why an entry is refused that is larger than `scale`, which the diagonal allows.

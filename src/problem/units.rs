@@ -14,7 +14,7 @@ use super::law_table::Parameter;
 use super::relation::{Redundant, Relation, Stiffness};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
-use crate::linalg::vector::largest_of;
+use crate::linalg::vector::{largest_of, norm_inf};
 
 /// Powers of two, of a stiffness, a length and a force, up to which methods take a problem as it is: products of
 /// four forces and of the squares of a condition number of 1e16 stay far from the ends of doubles, 2^±1022.
@@ -45,7 +45,7 @@ impl Units {
         let stiffness = least.midpoint(most) & !1;
         let gaps = (0..problem.pairs()).map(|pair| problem.gap(pair)).filter(|gap| gap.is_finite());
         let interference = power(largest_of(gaps.clone().map(|gap| gap.min(0.0))));
-        let moved = power(largest_of(problem.reference_slips().iter().copied()));
+        let moved = power(problem.reference_slips().map_or(0.0, norm_inf));
         let driven = [asked, interference, moved].into_iter().max().flatten();
         let length = driven.or_else(|| power(largest_of(gaps))).unwrap_or(0) & !1;
         let is_far =
@@ -109,10 +109,10 @@ pub fn in_units<R: ChangesUnits, T>(
         _ => Some(value),
     });
     let parameters: Vec<f64> = parameters.collect::<Option<_>>()?;
-    let slip = units.lengths(problem.reference_slips())?;
+    let slip = problem.reference_slips().map(|slip| units.lengths(slip));
+    let slip = slip.map_or(Some(None), |slip| slip.map(Some))?;
     problem.relation().in_units(units, |relation| {
-        let (law, slip) =
-            (law.law().with(&parameters), Some(&*slip).filter(|slip| !slip.is_empty()));
+        let (law, slip) = (law.law().with(&parameters), slip.as_deref());
         let problem = ContactProblem::with_relation(relation, problem.dim(), &gap, law, slip);
         work(units, &problem.expect("powers of two change no sign and no quotient"))
     })

@@ -31,7 +31,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let slips = changed(&slips, &tangents, LevelledTangents::levelled);
     let slips: Vec<f64> =
         slips.chunks_exact(3).flat_map(|of_pair| &of_pair[1..]).copied().collect();
-    let problem = problem.with_numbers(Matrix::new(size, &matrix, size), &load, &slips);
+    let problem = problem.with_numbers(Matrix::new(size, &matrix, size), &load, Some(&slips));
     let levelled = contact.levelled(&problem, &tangents);
     let start = call.start.map(|start| changed(start, &tangents, LevelledTangents::levelled));
     let call = Call { contact: &levelled, settings: call.settings, start: start.as_deref() };

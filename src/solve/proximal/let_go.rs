@@ -193,7 +193,9 @@ impl Springs<'_> {
     ) -> Result<Vec<f64>, Ending> {
         let n = self.units.len();
         let stiffness = self.stiffness(s);
-        let problem = self.contact.problem().with_stiffness(Matrix::new(n, &stiffness, n));
+        let problem = self.contact.problem();
+        let (load, slips) = (problem.load(), problem.reference_slips());
+        let problem = problem.with_numbers(Matrix::new(n, &stiffness, n), load, slips);
         let contact = Contact::new(&problem);
         let tolerance = self.settings.tolerance.max(ROUGH);
         let settings = Settings { tolerance, ..self.settings.clone() };
