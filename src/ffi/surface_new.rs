@@ -88,11 +88,11 @@ pub unsafe extern "C" fn signorini_surface_pair(
             master: SignoriniFaces::view(&master),
         };
         let ParsedSurfaceSettings { settings, limits, .. } = &host.received;
-        let found = limits.monitored(|monitor| pair_surfaces(&surfaces, settings, monitor));
-        let kept = || {
-            KeptSurfaces::new((surfaces.dim, surfaces.coordinates), surfaces.slave, surfaces.master)
-        };
-        let found = found.map(|found| (found, kept()));
+        let Surfaces { dim, coordinates, slave, master } = surfaces;
+        let found = limits.monitored(|monitor| {
+            let found = pair_surfaces(&surfaces, settings, monitor)?;
+            Ok((found, KeptSurfaces::new((dim, coordinates), slave, master)))
+        });
         place.fill(found.map(|found| (found, host)), position)
     })
 }

@@ -1,7 +1,7 @@
 //! A factorisation that names the motion which makes it fail.
 
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
-use super::numeric::{Numeric, Unfinished, factorised};
+use super::numeric::{Numeric, factorised};
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
@@ -21,19 +21,14 @@ pub fn diagnosed(
 ) -> Result<(Vec<f64>, Numeric), Failure> {
     let (structure, mut values) = (&plan.structure, Vec::new());
     let parts = (structure, &plan.schedule);
-    let (numeric, singular) = match factorised(parts, matrix, &mut values, progress) {
-        Ok(numeric) => (numeric, false),
-        Err(Unfinished::Failed(failure)) => return Err(failure),
-        Err(Unfinished::Pivot(_)) => {
-            (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
-            match factorised(parts, matrix, &mut values, progress) {
-                Ok(numeric) => (numeric, true),
-                Err(Unfinished::Failed(failure)) => return Err(failure),
-                Err(Unfinished::Pivot(place)) => {
-                    return Err(Failure::Indefinite(structure.order[place]));
-                }
-            }
+    let mut singular = false;
+    let numeric = loop {
+        match factorised(parts, matrix, &mut values, progress) {
+            Ok(numeric) => break numeric,
+            Err(Failure::Indefinite(_)) if !singular => singular = true,
+            Err(failure) => return Err(failure),
         }
+        (0..structure.eliminated).for_each(|j| scale_diagonal(matrix, j, 1.0 + REGULARISATION));
     };
     if let Some((place, pivot)) = numeric.weakest
         && (singular || pivot < SUSPICIOUS_PIVOT)

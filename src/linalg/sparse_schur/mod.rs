@@ -24,7 +24,7 @@ mod separator;
 mod solve;
 mod structure;
 
-pub use cholesky::{SparseCholesky, Values};
+pub use cholesky::Values;
 pub use factor_progress::{FactorProgress, FactorStep, Failure, Stopped};
 pub use plan::Plan;
 pub use schur::SparseSchur;

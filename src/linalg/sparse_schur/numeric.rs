@@ -30,20 +30,6 @@ pub struct Numeric {
     pub weakest: Weakest,
 }
 
-/// How a factorisation ends without a factor.
-pub enum Unfinished {
-    /// The pivot in this place is not positive.
-    Pivot(usize),
-    /// For another reason.
-    Failed(Failure),
-}
-
-impl<E: Into<Failure>> From<E> for Unfinished {
-    fn from(error: E) -> Self {
-        Unfinished::Failed(error.into())
-    }
-}
-
 /// Bytes that a factorisation on so many threads holds beside its arguments.
 pub fn bytes(structure: &Structure, lower: &Csc, threads: usize) -> usize {
     let numbers = structure.stored() + structure.kept() * structure.kept();
@@ -52,13 +38,14 @@ pub fn bytes(structure: &Structure, lower: &Csc, threads: usize) -> usize {
     numbers * size_of::<f64>() + Entries::bytes(structure, lower) + room
 }
 
-/// Computes everything; `values` become those of the panels, in the memory that they have.
+/// Computes everything; `values` become those of the panels, in the memory that they have. A pivot that is not positive is
+/// [`Failure::Indefinite`] with its row.
 pub fn factorised(
     (structure, schedule): (&Structure, &Schedule),
     lower: &Csc,
     values: &mut Vec<f64>,
     progress: &mut FactorProgress<'_>,
-) -> Result<Numeric, Unfinished> {
+) -> Result<Numeric, Failure> {
     let (kept, mut schur) = (structure.kept(), Vec::new());
     clear(values, structure.stored(), progress)?;
     clear(&mut schur, kept * kept, progress)?;
@@ -104,7 +91,7 @@ fn subtrees(
     source: Source<'_>,
     values: &mut [f64],
     parallel: &mut Parallel<'_>,
-) -> Result<Weakest, Unfinished> {
+) -> Result<Weakest, Failure> {
     let Schedule { subtrees, .. } = source.schedule;
     let (mut all, mut rest, mut at) = (Vec::new(), values, 0);
     let mut operations = 0.0;
@@ -123,7 +110,7 @@ fn subtrees(
     // The first one in the order of the panels, whoever came to it first.
     all.iter().try_fold(None, |weakest, subtree| match locked(subtree).weakest {
         Ok(other) => Ok(weaker(weakest, other)),
-        Err(place) => Err(Unfinished::Pivot(place)),
+        Err(place) => Err(Failure::Indefinite(source.structure.order[place])),
     })
 }
 
@@ -150,7 +137,7 @@ fn above(
     source: Source<'_>,
     values: &mut [f64],
     parallel: &mut Parallel<'_>,
-) -> Result<Weakest, Unfinished> {
+) -> Result<Weakest, Failure> {
     let mut places = filled(source.structure.size, 0)?;
     let mut weakest = None;
     for &s in &source.schedule.above {
@@ -158,7 +145,7 @@ fn above(
         let (before, rest) = values.split_at_mut(own.start);
         let (before, panel) = (Before { values: before, start: 0 }, &mut rest[..own.len()]);
         let pivot = by_all_threads(source, s, before, panel, &mut places, parallel)?;
-        weakest = weaker(weakest, pivot.map_err(Unfinished::Pivot)?);
+        weakest = weaker(weakest, pivot);
     }
     Ok(weakest)
 }

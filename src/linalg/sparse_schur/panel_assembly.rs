@@ -39,7 +39,7 @@ pub fn by_all_threads(
     values: &mut [f64],
     place: &mut [usize],
     parallel: &mut Parallel<'_>,
-) -> Result<Result<Weakest, usize>, Failure> {
+) -> Result<Weakest, Failure> {
     fill(source, number, place, values);
     let panel = Panel { source, number, before, place };
     let (top, mut below) = panel.divided(values);
@@ -59,13 +59,12 @@ pub fn by_all_threads(
         }
     })?;
     let mut top = top.into_inner().unwrap_or_else(PoisonError::into_inner);
-    if let Err(place) = panel.eliminate(top.as_mut(), &mut parallel.own_workspace().memory) {
-        return Ok(Err(place));
-    }
+    let eliminated = panel.eliminate(top.as_mut(), &mut parallel.own_workspace().memory);
+    eliminated.map_err(|place| Failure::Indefinite(source.structure.order[place]))?;
     let (width, rows) = (top.ncols(), source.structure.rows(number).len());
     parallel.share(blocks.len(), (width * width * rows) as f64, &|_, k| {
         panel.divide(top.as_ref(), locked(&blocks[k]).1.as_mut());
     })?;
     drop(blocks);
-    Ok(Ok(weakest(source, number, values)))
+    Ok(weakest(source, number, values))
 }

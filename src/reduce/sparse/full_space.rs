@@ -12,9 +12,7 @@ use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
-use crate::linalg::sparse_schur::{
-    FactorProgress, FactorStep, Failure, SparseCholesky, Stopped, Values,
-};
+use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure, Plan, Stopped, Values};
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, StiffnessOperator};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
@@ -28,7 +26,7 @@ pub(super) struct FullSpace {
     inner: usize,
     dim: usize,
     units: Vec<f64>,
-    cholesky: SparseCholesky,
+    cholesky: Plan,
     /// The factor that was made last, for whom needs the same one next, or its memory.
     kept: Mutex<Factor>,
     /// The loads and all unknowns of the last load case, for its recovery.
@@ -51,14 +49,14 @@ impl FullSpace {
         dim: usize,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let cholesky = SparseCholesky::new(&matrix, progress)?;
+        let cholesky = Plan::new(&matrix, matrix.ncols(), None, progress)?;
         progress(FactorStep::Needs(factor_bytes(&cholesky, &matrix)))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
         let (kept, last) = (Mutex::default(), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
-        let values = space.cholesky.diagnosed(space.restricted(&held_set, 0.0), progress)?;
+        let values = space.cholesky.definite(space.restricted(&held_set, 0.0), progress)?;
         let largest = space.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
         for unit in &mut space.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
@@ -159,10 +157,10 @@ impl FullSpace {
 }
 
 /// A factor, a second matrix with components held, and some vectors of all unknowns.
-fn factor_bytes(cholesky: &SparseCholesky, matrix: &Csc) -> u64 {
+fn factor_bytes(cholesky: &Plan, matrix: &Csc) -> u64 {
     let entry = size_of::<usize>() + size_of::<f64>();
     let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
-    cholesky.bytes() + copy as u64
+    cholesky.bytes + copy as u64
 }
 
 /// Vectors of all unknowns that a solution holds at a time, beside directions of GMRES.
