@@ -94,7 +94,7 @@ pub(crate) fn certify_in_units<R: ChangesUnits>(
     force: &[f64],
 ) -> Certificate {
     let in_units = in_units(problem, |units, problem| {
-        let (d, force) = (units.lengths(d)?, units.forces(force)?);
+        let (d, force) = (units.length.all(d)?, units.force.all(force)?);
         Some(measure(&Contact::new(problem), (&d, &[]), &force).to_host(units))
     });
     in_units.flatten().unwrap_or_else(|| measure(&Contact::new(problem), (d, &[]), force))

@@ -7,7 +7,7 @@ use super::reserve::{self, CallReserve};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
-    forget, remember, remember_plain,
+    remember, remember_plain,
 };
 use super::surroundings::Surroundings;
 use crate::error::{Argument, Error, Limit, Message};
@@ -58,7 +58,14 @@ impl Failure {
         match error {
             Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
             Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },
-            Error::Stopped { limit, .. } => Failure { code: limit_code(limit), message },
+            Error::Stopped { limit, .. } => {
+                let code = match limit {
+                    Limit::Memory => SIGNORINI_STATUS_MEMORY_LIMIT,
+                    Limit::Time => SIGNORINI_STATUS_TIME_LIMIT,
+                    Limit::Cancelled => SIGNORINI_STATUS_CANCELLED,
+                };
+                Failure { code, message }
+            }
             Error::File(_) => Failure { code: SIGNORINI_STATUS_FILE, message },
         }
     }
@@ -69,20 +76,13 @@ pub(super) fn number_of(argument: Argument, first: i32, listed: &[Argument]) -> 
     (first..).zip(listed).find(|(_, other)| **other == argument).map(|(number, _)| number)
 }
 
-fn limit_code(limit: Limit) -> i32 {
-    match limit {
-        Limit::Memory => SIGNORINI_STATUS_MEMORY_LIMIT,
-        Limit::Time => SIGNORINI_STATUS_TIME_LIMIT,
-        Limit::Cancelled => SIGNORINI_STATUS_CANCELLED,
-    }
-}
-
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; the C library prints none of them.
 pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
     let _surroundings = Surroundings::of_call();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
-    forget();
+    // Nothing has happened so far.
+    remember_plain("");
     let Some(_held) = CallReserve::begin() else {
         remember_plain("not enough memory for a call; nothing was done");
         return SIGNORINI_STATUS_OUT_OF_MEMORY;

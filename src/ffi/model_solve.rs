@@ -19,7 +19,7 @@ use crate::monitor::ProgressFn;
 use crate::settings::Settings;
 use crate::shortage;
 use crate::solve::Solution;
-use crate::workers::share;
+use crate::workers::{locked, share};
 
 const SETTINGS: i32 = 9;
 const START: i32 = 10;
@@ -102,11 +102,7 @@ struct Lane<'m> {
     starts: Vec<f64>,
 }
 
-impl<'m> Lane<'m> {
-    fn new(left: Range<usize>, series: Series<'m>) -> Self {
-        Lane { left, series, starts: Vec::new() }
-    }
-
+impl Lane<'_> {
     /// Solves the next cases, each with its number.
     fn solve_next(
         &mut self,
@@ -177,15 +173,16 @@ impl Block<'_> {
         let model = self.model;
         if received.warm_start == WarmStart::Previous {
             let series = Series::after(model, past.unwrap_or_else(Past::of_none));
-            return vec![Lane::new(0..cases, series)];
+            return vec![Lane { left: 0..cases, series, starts: Vec::new() }];
         }
         let alone = received.progress.is_some() || model.is_matrix_free();
         let count = if alone { 1 } else { received.threads.min(cases) };
         let begin = |lane: usize| lane * cases / count;
-        (0..count)
-            .map(|lane| begin(lane)..begin(lane + 1))
-            .map(|left| Lane::new(left.clone(), Series::of(model, left.len())))
-            .collect()
+        let lane = |number: usize| {
+            let left = begin(number)..begin(number + 1);
+            Lane { series: Series::of(model, left.len()), left, starts: Vec::new() }
+        };
+        (0..count).map(lane).collect()
     }
 
     /// Solves the next cases of each lane. Returns what each case has come to, by its number.
@@ -205,7 +202,7 @@ impl Block<'_> {
         }
         let parts: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new((lane, Vec::new()))).collect();
         let work = |_, part: usize| {
-            let mut part = parts[part].lock().unwrap_or_else(PoisonError::into_inner);
+            let mut part = locked(&parts[part]);
             part.1 = part.0.solve_next(cases, how, None);
         };
         share(parts.len(), f64::INFINITY, &work, &mut || true);

@@ -171,11 +171,6 @@ pub(super) fn tell_panic() {
     [&LAST, &FROM_ONE].into_iter().for_each(|place| place.set(noted));
 }
 
-/// Nothing happened.
-pub(super) fn forget() {
-    remember_plain("");
-}
-
 /// The sentence of the last call on this thread, as Fortran counts.
 pub(super) fn last_counted_from_one() -> String {
     FROM_ONE.with_borrow(|sentence| {

@@ -1,6 +1,6 @@
 //! Pressure, traction, clearance and slip of pairs from surfaces, and their resultant.
 
-use super::args::{Arrays, Output, c_entry};
+use super::args::{Arrays, c_entry};
 use super::guard::Failure;
 use super::structures::{Structure, check_reserved};
 use super::surface_new::SignoriniSurfacePairs;
@@ -99,11 +99,11 @@ pub unsafe extern "C" fn signorini_surface_fields(
         let found = contact.found.fields(&results).map_err(wrong)?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
-            scatter(place, nodes, values);
+            scatter(nodes, values, |at, of_node| place.part(at, of_node.len()).write(of_node));
         }
         if let Some(state) = state {
-            let of_nodes: Vec<i32> = pairs.iter().map(|pair| state[*pair]).collect();
-            scatter(&states, nodes, &of_nodes);
+            let of_nodes = nodes.iter().zip(pairs);
+            of_nodes.for_each(|(node, pair)| states.part(*node, 1).write(&[state[*pair]]));
         }
         Ok(0)
     })
@@ -173,10 +173,10 @@ pub(super) fn wrong(error: crate::error::Error) -> Failure {
     })
 }
 
-/// Writes the values of some nodes to their places.
-fn scatter<T: Copy>(place: &Output<T>, nodes: &[usize], values: &[T]) {
+/// Hands over the values of each of some nodes, with their place among those of all nodes.
+pub(super) fn scatter<T>(nodes: &[usize], values: &[T], mut put: impl FnMut(usize, &[T])) {
     let each = values.len().checked_div(nodes.len()).unwrap_or(0);
     for (node, of_node) in nodes.iter().zip(values.chunks(each.max(1))) {
-        place.part(node * each, each).write(of_node);
+        put(node * each, of_node);
     }
 }

@@ -3,10 +3,11 @@
 use super::args::{Arrays, size};
 use super::guard::Failure;
 use super::structures::check_reserved;
-use super::surface_fields::pair_results;
+use super::surface_fields::{pair_results, scatter};
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::index;
 use crate::file::{Field, Values};
+use crate::surface::NodalFields;
 
 /// A contact zone with its solution, for signorini_mesh_write.
 #[repr(C)]
@@ -38,13 +39,10 @@ const NO_STATE: i32 = -1;
 
 /// Fields of the zones at all nodes.
 pub(super) struct Zones {
-    dim: usize,
     /// Degrees of freedom of all nodes.
     dofs: Vec<usize>,
-    /// Pressure and clearance.
-    scalars: [Vec<f64>; 2],
-    /// Traction and slip.
-    vectors: [Vec<f64>; 2],
+    /// Pressure, clearance, traction and slip.
+    reals: [Vec<f64>; 4],
     states: Vec<i32>,
     has_states: bool,
 }
@@ -86,10 +84,8 @@ impl Zones {
     fn empty(contact: &SignoriniSurfacePairs) -> Self {
         let (nodes, dim) = (contact.nodes, contact.found.dim);
         Zones {
-            dim,
             dofs: contact.dofs(),
-            scalars: [vec![0.0; nodes], vec![0.0; nodes]],
-            vectors: [vec![0.0; dim * nodes], vec![0.0; dim * nodes]],
+            reals: [1, 1, dim, dim].map(|each| vec![0.0; each * nodes]),
             states: vec![NO_STATE; nodes],
             has_states: true,
         }
@@ -108,21 +104,16 @@ impl Zones {
         let state = arrays.optional(ZONES, "state", zone.state, contact.arrays.count)?;
         let found = contact.found.fields(&results);
         let found = found.map_err(|error| Failure::from_error(error, |_| ZONES))?;
-        let spread = |all: &mut [f64], values: &[f64], each: usize| {
-            for (node, of_node) in found.nodes.iter().zip(values.chunks(each)) {
-                all[each * node..each * (node + 1)].copy_from_slice(of_node);
-            }
-        };
-        let ([pressure, clearance], [traction, slip]) = (&mut self.scalars, &mut self.vectors);
-        spread(pressure, &found.pressure, 1);
-        spread(clearance, &found.clearance, 1);
-        spread(traction, &found.traction, self.dim);
-        spread(slip, &found.slip, self.dim);
+        let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
+        for (all, values) in self.reals.iter_mut().zip([pressure, clearance, traction, slip]) {
+            scatter(nodes, values, |at, of_node| {
+                all[at..at + of_node.len()].copy_from_slice(of_node);
+            });
+        }
         // A zone without pairs has no states to give.
         self.has_states &= !zone.state.is_null() || contact.arrays.count == 0;
         if let Some(state) = state {
-            let each = found.nodes.iter().zip(&found.pairs);
-            each.for_each(|(node, pair)| self.states[*node] = state[*pair]);
+            nodes.iter().zip(pairs).for_each(|(node, pair)| self.states[*node] = state[*pair]);
         }
         Ok(())
     }
@@ -140,7 +131,7 @@ impl Zones {
 
     /// The fields under their names.
     pub(super) fn fields(&self) -> impl Iterator<Item = Field<'_>> {
-        let ([pressure, clearance], [traction, slip]) = (&self.scalars, &self.vectors);
+        let [pressure, clearance, traction, slip] = &self.reals;
         let reals = [
             ("pressure", Values::Scalars(pressure)),
             ("clearance", Values::Scalars(clearance)),

@@ -20,11 +20,33 @@ use crate::linalg::vector::{largest_of, norm_inf};
 /// four forces and of the squares of a condition number of 1e16 stay far from the ends of doubles, 2^±1022.
 const ORDINARY: i32 = 128;
 
-/// Powers of two that turn the host's numbers into ordinary ones.
+/// A power of two that turns the host's numbers into ordinary ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit(i32);
+
+impl Unit {
+    /// The host's numbers in this unit; `None` where one is beyond doubles.
+    pub fn all(self, values: &[f64]) -> Option<Vec<f64>> {
+        all(values, self.0)
+    }
+
+    /// A number of this unit in that of the host, rounded where it is among the smallest doubles; the largest double
+    /// where it is beyond.
+    pub fn host(self, value: f64) -> f64 {
+        times_power_of_two(value, -self.0).clamp(-f64::MAX, f64::MAX)
+    }
+
+    /// Returns `true` if numbers of this unit keep all digits in that of the host.
+    pub fn keeps(self, values: &[f64]) -> bool {
+        all(values, -self.0).is_some()
+    }
+}
+
+/// The units of lengths and of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Units {
-    length: i32,
-    force: i32,
+    pub length: Unit,
+    pub force: Unit,
 }
 
 impl Units {
@@ -50,42 +72,11 @@ impl Units {
         let length = driven.or_else(|| power(largest_of(gaps))).unwrap_or(0) & !1;
         let is_far =
             [stiffness, length, stiffness + length].iter().any(|power| power.abs() > ORDINARY);
-        is_far.then_some(Units { length: -length, force: -length - stiffness })
-    }
-
-    /// Lengths in these units; `None` where one is beyond doubles.
-    pub fn lengths(self, values: &[f64]) -> Option<Vec<f64>> {
-        all(values, self.length)
-    }
-
-    /// Forces in these units; `None` where one is beyond doubles.
-    pub fn forces(self, values: &[f64]) -> Option<Vec<f64>> {
-        all(values, self.force)
-    }
-
-    /// A length of these units in those of the host, rounded where it is among the smallest doubles; the largest
-    /// double where it is beyond.
-    pub fn host_length(self, value: f64) -> f64 {
-        times_power_of_two(value, -self.length).clamp(-f64::MAX, f64::MAX)
-    }
-
-    /// A force of these units in those of the host, as [`Units::host_length`] a length.
-    pub fn host_force(self, value: f64) -> f64 {
-        times_power_of_two(value, -self.force).clamp(-f64::MAX, f64::MAX)
-    }
-
-    /// Returns `true` if lengths of these units keep all digits in those of the host.
-    pub fn keeps_lengths(self, values: &[f64]) -> bool {
-        all(values, -self.length).is_some()
-    }
-
-    /// Returns `true` if forces of these units keep all digits in those of the host.
-    pub fn keeps_forces(self, values: &[f64]) -> bool {
-        all(values, -self.force).is_some()
+        is_far.then_some(Units { length: Unit(-length), force: Unit(-length - stiffness) })
     }
 
     fn stiffness(self) -> i32 {
-        self.force - self.length
+        self.force.0 - self.length.0
     }
 }
 
@@ -98,18 +89,18 @@ pub fn in_units<R: ChangesUnits, T>(
     let units = Units::of(problem)?;
     let gap = |pair| {
         let gap = problem.gap(pair);
-        let is_far = gap > 0.0 && units.length > 0 && !problem.is_tied(pair);
+        let is_far = gap > 0.0 && units.length.0 > 0 && !problem.is_tied(pair);
         let far = is_far.then_some(f64::INFINITY);
-        exactly(gap, units.length).or(far)
+        exactly(gap, units.length.0).or(far)
     };
     let gap: Vec<f64> = (0..problem.pairs()).map(gap).collect::<Option<_>>()?;
     let law = problem.law();
     let parameters = law.each().map(|(meaning, value)| match meaning {
-        Parameter::Force => exactly(value, units.force),
+        Parameter::Force => exactly(value, units.force.0),
         _ => Some(value),
     });
     let parameters: Vec<f64> = parameters.collect::<Option<_>>()?;
-    let slip = problem.reference_slips().map(|slip| units.lengths(slip));
+    let slip = problem.reference_slips().map(|slip| units.length.all(slip));
     let slip = slip.map_or(Some(None), |slip| slip.map(Some))?;
     problem.relation().in_units(units, |relation| {
         let (law, slip) = (law.law().with(&parameters), slip.as_deref());
@@ -131,7 +122,7 @@ impl ChangesUnits for Stiffness<'_> {
     type On<'b> = Stiffness<'b>;
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
-        let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.forces(self.load)?);
+        let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.force.all(self.load)?);
         let matrix = Matrix::new(self.size(), &matrix, self.size().max(1));
         let (symmetric, rounding) = (self.symmetric, self.rounding);
         Some(work(Stiffness { symmetric, rounding, ..Stiffness::new(matrix, &load, self.dim) }))
@@ -154,7 +145,7 @@ impl ChangesUnits for Flexibility<'_> {
             }
         };
         let (free, of_components) =
-            (units.lengths(self.free)?, all(self.units(), units.stiffness())?);
+            (units.length.all(self.free)?, all(self.units(), units.stiffness())?);
         Some(work(Flexibility::new(form, &free, of_components)))
     }
 }
@@ -164,7 +155,7 @@ impl ChangesUnits for DependentRows<'_> {
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
         let matrix = dense(&self.stiffness, units.stiffness())?;
-        let (load, offset) = (units.forces(self.load)?, units.lengths(self.offset())?);
+        let (load, offset) = (units.force.all(self.load)?, units.length.all(self.offset())?);
         Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset)))
     }
 }

@@ -62,7 +62,7 @@ pub(crate) fn solve_dependent(
     let bytes = || memory(problem.unknowns()) + copies_of(problem);
     check(settings, bytes, ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
-        let start = start.and_then(|start| units.lengths(start));
+        let start = start.and_then(|start| units.length.all(start));
         let solution = proximal::solve_dependent(problem, by, start.as_deref(), monitor)?;
         Ok(to_host(solution, units, settings, problem))
     });
@@ -111,7 +111,7 @@ pub fn solve_flexibility(
         }
     })?;
     let solution = in_units(problem, |units, problem| {
-        let start = start.and_then(|start| units.forces(start));
+        let start = start.and_then(|start| units.force.all(start));
         let solution = proximal::solve_flexibility(problem, by, start.as_deref(), monitor)?;
         Ok(to_host(solution, units, settings, problem))
     });
@@ -134,7 +134,7 @@ pub fn solve(
     let bytes = || memory(problem.unknowns()) + copies_of(problem);
     check(settings, bytes, ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
-        let start = start.and_then(|start| units.lengths(start));
+        let start = start.and_then(|start| units.length.all(start));
         let solution = solve_as_it_stands(problem, settings, start.as_deref(), monitor)?;
         Ok(to_host(solution, units, settings, problem))
     });

@@ -30,7 +30,7 @@ pub fn to_host(
         **proof = proof.to_host(units);
     }
     if let Some(Escape { unbalanced, .. }) = &mut solution.escape {
-        unbalanced.iter_mut().for_each(|force| *force = units.host_force(*force));
+        unbalanced.iter_mut().for_each(|force| *force = units.force.host(*force));
     }
     solution
 }
@@ -41,13 +41,13 @@ fn point_to_host(
     (d, low, certificate): (&mut [f64], &mut [f64], &mut Certificate),
     certify: &impl Fn(&[f64], &[f64], &[f64]) -> Certificate,
 ) {
-    let kept = units.keeps_lengths(d)
-        && units.keeps_lengths(low)
-        && units.keeps_forces(&certificate.force);
+    let kept =
+        units.length.keeps(d) && units.length.keeps(low) && units.force.keeps(&certificate.force);
     let own = certificate.to_host(units);
-    d.iter_mut().chain(low.iter_mut()).for_each(|d| *d = units.host_length(*d));
-    let again =
-        || Some(certify(&units.lengths(d)?, &units.lengths(low)?, &units.forces(&own.force)?));
+    d.iter_mut().chain(low.iter_mut()).for_each(|d| *d = units.length.host(*d));
+    let again = || {
+        Some(certify(&units.length.all(d)?, &units.length.all(low)?, &units.force.all(&own.force)?))
+    };
     let measured = if kept { None } else { again() };
     *certificate = measured.map_or(own, |measured| measured.to_host(units));
 }
