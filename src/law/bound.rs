@@ -29,7 +29,29 @@ impl Bound {
 pub fn length(vector: &[f64]) -> f64 {
     match *vector {
         [a] => a.abs(),
-        [a, b] => a.hypot(b),
+        [a, b] => {
+            let square = a * a + b * b;
+            // `hypot`, which is slow, is asked where a square overflows, or underflows beside the other.
+            let usual = f64::MIN_POSITIVE / f64::EPSILON..f64::INFINITY;
+            if usual.contains(&square) { square.sqrt() } else { a.hypot(b) }
+        }
         _ => unreachable!("a pair has one or two tangential components"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::length;
+
+    /// Sides of 3 and 4 in units of every power of two, down to the smallest number.
+    #[test]
+    fn a_triangle_in_any_units() {
+        for power in -1074..=1021 {
+            // 2^power, also where it is subnormal.
+            let unit = 2.0_f64.powi(power.max(-1000)) * 2.0_f64.powi((power + 1000).min(0));
+            assert_eq!(length(&[3.0 * unit, -4.0 * unit]), 5.0 * unit, "{power}");
+        }
+        assert_eq!(length(&[0.0, 0.0]), 0.0);
+        assert!(length(&[f64::NAN, 1.0]).is_nan());
     }
 }

@@ -6,23 +6,29 @@
 //! over-relaxed sweeps then move the front some times as fast. They do not converge on all matrices with
 //! large coefficients of friction: a round that gains too little is taken back.
 
+use std::ops::RangeInclusive;
+
 use crate::law::Vector;
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
 use crate::solve::sweeps::sweep_pairs;
 
-/// How many rounds are made, and of how many sweeps.
+/// How many rounds are made, and of how many sweeps: the fewest, and the most where there are many unknowns.
 struct Rounds {
-    sweeps: usize,
+    sweeps: RangeInclusive<usize>,
     least: usize,
     most: usize,
 }
 
-const IN_SPACE: Rounds = Rounds { sweeps: 10, least: 2, most: 10 };
+const IN_SPACE: Rounds = Rounds { sweeps: 5..=10, least: 2, most: 20 };
+
+/// A round has a sweep for so many unknowns. A system of `n` unknowns costs as much as `n / 3` sweeps, so that a round
+/// costs about a hundredth of it.
+const UNKNOWNS_PER_SWEEP: usize = 300;
 
 /// In the plane a system costs as much as a few sweeps, as one factor serves many, and most fronts move by two sweeps
 /// between systems.
-const IN_PLANE: Rounds = Rounds { sweeps: 5, least: 1, most: 2 };
+const IN_PLANE: Rounds = Rounds { sweeps: 5..=5, least: 1, most: 2 };
 
 /// Settled is a round that changes at most this part of the pieces, and leaves at most this residual `eta`.
 const CHANGING: f64 = 0.01;
@@ -56,13 +62,15 @@ pub(super) fn swept(
     }
     let mut force = whole.force(&d);
     let rounds = if whole.dim == 2 { IN_PLANE } else { IN_SPACE };
+    let (fewest, most) = rounds.sweeps.into_inner();
+    let sweeps = (whole.root.len() / UNKNOWNS_PER_SWEEP).clamp(fewest, most);
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega, monitor: &mut Monitor<'_>| {
         let mut one = |omega| {
             if !monitor.is_late() {
                 sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
             }
         };
-        (1..rounds.sweeps).for_each(|_| one(omega));
+        (1..sweeps).for_each(|_| one(omega));
         one(1.0);
         whole.eta(d, force)
     };
