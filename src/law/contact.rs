@@ -151,6 +151,11 @@ impl<'p, R: Relation> Contact<'p, R> {
         self.pairs.iter().zip(normals).map(part).fold(1.0, f64::min)
     }
 
+    /// The friction that the pairs can carry under forces.
+    pub fn thresholds(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
+        self.each(d, force).map(|(law, _, force)| law.threshold(force[0])).collect()
+    }
+
     /// Gives the pairs thresholds in the place of their own bounds: a Tresca problem.
     pub fn set_thresholds(&mut self, thresholds: &[f64]) {
         for (law, &threshold) in self.pairs.iter_mut().zip(thresholds) {
@@ -189,4 +194,14 @@ impl<'p, R: Relation> Contact<'p, R> {
         let no_slip = |law: &PairLaw| law.reference()[1..] == [0.0; 2];
         self.is_unloaded() && self.pairs.iter().all(no_slip)
     }
+}
+
+/// The references of pairs, `dim` components of each.
+pub fn references(laws: &[PairLaw], dim: usize) -> impl Iterator<Item = f64> {
+    laws.iter().flat_map(move |law| law.reference().into_iter().take(dim))
+}
+
+/// Roots of the stiffnesses that scale the components of pairs.
+pub fn scale_roots(laws: &[PairLaw], dim: usize) -> impl Iterator<Item = f64> {
+    laws.iter().flat_map(move |law| law.scale().into_iter().take(dim).map(f64::sqrt))
 }

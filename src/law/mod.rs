@@ -63,7 +63,7 @@ mod state;
 
 pub use assembly::{Assembly, Image, Unknown};
 pub use bound::{Bound, length};
-pub use contact::Contact;
+pub use contact::{Contact, references, scale_roots};
 pub use contradiction::{
     exceed_gaps, first_open_tie, first_penetration, pressing, without_friction,
 };

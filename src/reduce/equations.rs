@@ -21,7 +21,7 @@ pub struct Equations<'a> {
     pub coefficients: &'a [f64],
 }
 
-fn refuse<T>(message: String) -> Result<T, Error> {
+pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
     Err(Error::invalid(Argument::Pairs, message))
 }
 
@@ -140,24 +140,19 @@ impl Dependents {
     pub(super) fn new(equations: &Equations<'_>, size: usize) -> Result<Self, Error> {
         equations.check()?;
         let places = equations.places()?;
-        let mut terms: BTreeMap<usize, Terms> = BTreeMap::new();
+        let mut found = Dependents::default();
         for k in equations.order(&places)? {
-            let mut sum = Terms::new();
-            for (dof, a) in equations.terms(k) {
-                match terms.get(&dof) {
-                    Some(of) => sum.extend(of.iter().map(|(other, b)| (*other, a * b))),
-                    None if dof < size => sum.push((dof, a)),
-                    None => {
-                        let (equation, dof) = (index(k), index(dof));
-                        return refuse(format!(
-                            "equation {equation}: there is no degree of freedom {dof}, and no equation gives it"
-                        ));
-                    }
-                }
+            let is_nothing = |&(dof, _): &(usize, f64)| dof >= size && !found.have(dof);
+            if let Some((dof, _)) = equations.terms(k).find(is_nothing) {
+                let (equation, dof) = (index(k), index(dof));
+                return refuse(format!(
+                    "equation {equation}: there is no degree of freedom {dof}, and no equation gives it"
+                ));
             }
-            terms.insert(equations.dependent[k], gathered(sum));
+            let terms = gathered(found.replaced(equations.terms(k).collect()));
+            found.terms.insert(equations.dependent[k], terms);
         }
-        Ok(Dependents { terms })
+        Ok(found)
     }
 
     /// `true` if an equation gives the degree of freedom.

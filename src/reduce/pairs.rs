@@ -1,9 +1,9 @@
 //! Contact pairs of a host: a slave node, the point that it faces, and a frame.
 
-use super::equations::{Dependents, Equations};
+use super::equations::{Dependents, Equations, refuse};
 use super::frame::Frame;
 use super::rows::Rows;
-use crate::error::{Argument, Error, index};
+use crate::error::{Error, index};
 use crate::linalg::row_elimination::{Terms, gathered};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::{first_not_finite, norm_inf};
@@ -42,10 +42,6 @@ pub struct ContactPairs<'a> {
     pub tangents: Option<&'a [f64]>,
     /// Equations by which degrees of freedom follow from others. Pairs may name all of them.
     pub equations: Equations<'a>,
-}
-
-fn refuse<T>(message: String) -> Result<T, Error> {
-    Err(Error::invalid(Argument::Pairs, message))
 }
 
 impl ContactPairs<'_> {

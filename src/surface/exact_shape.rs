@@ -122,13 +122,13 @@ impl Obstacle {
             true => Ok(scale * Vector3::from(x)),
             false => Err("its point is not finite".to_string()),
         };
-        let hollow = matches!(
-            *self,
-            Obstacle::Sphere { hollow: true, .. }
-                | Obstacle::Cylinder { hollow: true, .. }
-                | Obstacle::Cone { hollow: true, .. }
-                | Obstacle::Torus { hollow: true, .. }
-        );
+        let hollow = match *self {
+            Obstacle::Plane { .. } => false,
+            Obstacle::Sphere { hollow, .. }
+            | Obstacle::Cylinder { hollow, .. }
+            | Obstacle::Cone { hollow, .. }
+            | Obstacle::Torus { hollow, .. } => hollow,
+        };
         let form = match *self {
             Obstacle::Plane { point: at, outward } => {
                 let outward = direction("outward direction", outward)?;

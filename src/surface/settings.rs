@@ -98,30 +98,32 @@ impl SurfaceSettings {
     /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
     /// space.
     pub(super) fn check(&self, dim: usize) -> Result<(), Error> {
+        let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
         // Written so that NaN is refused.
         if let Some(distance) = self.search_distance.filter(|distance| !(*distance > 0.0)) {
-            let message = format!("search_distance is {distance}, it must be positive");
-            return Err(Error::invalid(Argument::Settings, message));
+            return refuse(&format!("search_distance is {distance}, it must be positive"));
         }
         if self.axisymmetric && dim == 3 {
-            let message = "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions";
-            return Err(Error::invalid(Argument::Settings, message));
+            return refuse(
+                "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions",
+            );
         }
         let (within, shift) = (self.close_within, self.clearance);
         if !(within >= 0.0 && shift.is_finite()) {
-            let message = format!(
+            return refuse(&format!(
                 "close_within is {within}, it must not be negative; clearance is {shift}, it must be finite"
-            );
-            return Err(Error::invalid(Argument::Settings, message));
+            ));
         }
         if self.pairing == Pairing::NodeToSurface && self.shapes != [TrueShape::Facets; 2] {
-            let message = "true shapes are for dual mortar: nodes against surfaces are measured where they stand";
-            return Err(Error::invalid(Argument::Settings, message));
+            return refuse(
+                "true shapes are for dual mortar: nodes against surfaces are measured where they stand",
+            );
         }
         if self.pairing == Pairing::NodeToSurface && self.rims != Rims::Fold {
-            let message = "rims: nodes against surfaces have no cover that a rim could be told by: leave the \
-                           default, or pair by dual mortar";
-            return Err(Error::invalid(Argument::Settings, message));
+            return refuse(
+                "rims: nodes against surfaces have no cover that a rim could be told by: leave the \
+                           default, or pair by dual mortar",
+            );
         }
         Ok(())
     }

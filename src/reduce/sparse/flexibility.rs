@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 
 use super::host_arrays::SparseMatrix;
-use super::host_matrix::refuse;
 use crate::error::Error;
 use crate::linalg::sparse_matrix::{Csc, column, diagonal};
 use crate::linalg::tolerances::AGREES;
@@ -11,6 +10,7 @@ use crate::problem::symmetric_matrix::beyond_diagonal;
 use crate::problem::{
     FlexibilityForm, FlexibilityProblem, FrictionLaw, SparseW, checked_dim, unknowns,
 };
+use crate::reduce::probes::refuse;
 
 /// The caller's arrays of a problem in flexibility form with a sparse `W`, not yet checked. Units as in
 /// [`crate::FlexibilityData`].

@@ -2,13 +2,10 @@
 
 use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
-use crate::error::{Argument, Error, entry};
+use crate::error::{Error, entry};
 use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
 use crate::linalg::tolerances::AGREES;
-
-pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
-    Err(Error::invalid(Argument::Matrix, message))
-}
+use crate::reduce::probes::refuse;
 
 impl SparseMatrix<'_> {
     /// Checks the arrays' lengths and `col_start`. What else is wrong, a model finds.

@@ -12,7 +12,7 @@ use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
 use crate::solve::part::many_are_open;
 use crate::solve::pieces::{Equations, Point, Step, Systems};
-use crate::solve::result::{Candidate, Effort, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_pairs;
 
 /// Systems after which it is given up: it takes up to about ten where it converges.
@@ -128,20 +128,19 @@ pub fn solve_again(
     Some(dense.descend(point, (tolerance, 0), monitor))
 }
 
-/// Solves the equations from the solution on given pieces of the plane, whatever the law says to it. `Err`: that system
-/// is singular, or there is no time for it.
-pub fn from_pieces(
-    equations: &Equations<'_>,
-    pieces: &[Piece],
-    tolerance: f64,
-    monitor: &mut Monitor<'_>,
-) -> Result<Ended, Ending> {
+/// Solves a problem in the plane from the solution on given pieces, whatever the law says to it; the start is returned
+/// unchanged if that cannot be had.
+pub fn from_pieces(call: &Call<'_>, pieces: &[Piece], monitor: &mut Monitor<'_>) -> Candidate {
+    let equations = &Equations::of(call.contact);
     let mut dense = Dense::of(equations);
     let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
     let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
     let y = equations.laws.iter().zip(pieces).map(inside).collect();
-    let point = dense.from(Point::on(equations, pieces.to_vec(), y), monitor)?;
-    Ok(dense.descend(point, (tolerance, 0), monitor))
+    let point = Point::on(equations, pieces.to_vec(), y);
+    match dense.from(point, monitor) {
+        Ok(point) => dense.descend(point, (call.settings.tolerance, 0), monitor).into_candidate(),
+        Err(ending) => Candidate::of_displacements(call.contact, call.start_or_zero(), ending),
+    }
 }
 
 /// Equations whose systems are factorised.
@@ -256,12 +255,8 @@ impl<'e> Dense<'e> {
     fn swept(&self, point: &Point, sweeps: usize, monitor: &mut Monitor<'_>) -> Point {
         let equations = self.equations;
         let (mut d, mut force) = (point.d.clone(), point.force.clone());
-        for _ in 0..sweeps {
-            if monitor.is_late() {
-                break;
-            }
-            sweep_pairs(&equations.laws, equations.matrix, (&mut d, &mut force), 1.0);
-        }
+        let iterate = (&mut d[..], &mut force[..]);
+        sweep_pairs(&equations.laws, equations.matrix, iterate, (sweeps, 1.0), monitor);
         Point::new(equations, equations.coordinates(&d, &force))
     }
 }

@@ -2,7 +2,7 @@
 //! are as stiff (`law::levelled`).
 
 use super::candidates::{self, Core};
-use crate::law::LevelledTangents;
+use crate::law::{LevelledTangents, references};
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Ending};
@@ -27,7 +27,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let size = contact.unknowns();
     let matrix = congruent(problem.stiffness(), &tangents);
     let load = changed(problem.load(), &tangents, LevelledTangents::force);
-    let slips: Vec<f64> = contact.pairs().iter().flat_map(|law| law.reference()).collect();
+    let slips: Vec<f64> = references(contact.pairs(), 3).collect();
     let slips = changed(&slips, &tangents, LevelledTangents::levelled);
     let slips: Vec<f64> =
         slips.chunks_exact(3).flat_map(|of_pair| &of_pair[1..]).copied().collect();

@@ -18,11 +18,10 @@ mod uncertain_pairs;
 pub use candidates::solve as on_candidates;
 use descent::PATIENCE;
 pub use descent::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, solve as descend};
-pub use iteration::{Ended, solve as newton_from};
+pub use iteration::{Ended, from_pieces, solve as newton_from};
 pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};
 
-use crate::law::Piece;
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Ending};
@@ -61,14 +60,5 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             candidate.effort.factorisations += levelled.systems;
             candidate
         }
-    }
-}
-
-/// Solves in the plane from the solution on given pieces; the start is returned unchanged if that cannot be had.
-pub fn from_pieces(call: &Call<'_>, pieces: &[Piece], monitor: &mut Monitor<'_>) -> Candidate {
-    let (equations, tolerance) = (Equations::of(call.contact), call.settings.tolerance);
-    match iteration::from_pieces(&equations, pieces, tolerance, monitor) {
-        Ok(ended) => ended.into_candidate(),
-        Err(ending) => Candidate::of_displacements(call.contact, call.start_or_zero(), ending),
     }
 }

@@ -178,19 +178,14 @@ impl Steps {
 /// Newton's steps, whose factor is kept.
 struct Newton<'e, 'm> {
     equations: &'e Equations<'e>,
-    kept: Option<CachedFactor>,
+    /// The factor, with the pieces at which it was made.
+    kept: Option<(System, Vec<Piece>)>,
     /// True if the last step came near enough for its factor to serve again.
     is_good: bool,
     factorisations: u64,
     /// True if a factorisation or a step was left out as there was no time for it.
     is_stopped: bool,
     monitor: &'e mut Monitor<'m>,
-}
-
-/// A factor, with the pieces at which it was made.
-struct CachedFactor {
-    system: System,
-    pieces: Vec<Piece>,
 }
 
 impl<'e, 'm> Newton<'e, 'm> {
@@ -218,22 +213,22 @@ impl<'e, 'm> Newton<'e, 'm> {
         let mut lack = distance;
         equations.matrix.add_product(&change, &mut lack);
         let pairs = equations.linearised(&pieces, &y);
-        let kept = self.factor(pieces, pairs)?;
-        let (steps, _) = kept.system.step(equations, &lack, 0.0)?;
-        let pairs = equations.laws.iter().zip(kept.system.pairs()).zip(&steps);
+        let system = self.factor(pieces, pairs)?;
+        let (steps, _) = system.step(equations, &lack, 0.0)?;
+        let pairs = equations.laws.iter().zip(system.pairs()).zip(&steps);
         for (((law, pair), dy), change) in pairs.zip(change.chunks_exact_mut(dim)) {
             let moved = law.displacement_by(&pair.moved(dy));
             change.iter_mut().zip(moved).for_each(|(change, moved)| *change += moved);
         }
-        Some((change, kept.system.orientation()))
+        Some((change, system.orientation()))
     }
 
     /// The kept factor if it serves at these coordinates, otherwise theirs if there is time for it. It serves on its pieces
     /// while each step leaves the part [`CHORD`] of `eta` at most, and where derivatives are the same, as in the plane.
-    fn factor(&mut self, pieces: Vec<Piece>, pairs: Vec<Linearised>) -> Option<&mut CachedFactor> {
+    fn factor(&mut self, pieces: Vec<Piece>, pairs: Vec<Linearised>) -> Option<&mut System> {
         let (equations, is_good) = (self.equations, self.is_good);
-        let serves = |kept: &CachedFactor| {
-            kept.pieces == pieces && (is_good || kept.system.pairs() == pairs)
+        let serves = |(system, of): &(System, Vec<Piece>)| {
+            *of == pieces && (is_good || system.pairs() == pairs)
         };
         if !self.kept.as_ref().is_some_and(serves) {
             self.factorisations += 1;
@@ -241,8 +236,8 @@ impl<'e, 'm> Newton<'e, 'm> {
             let system =
                 System::new(equations, pairs, None, NULL_VECTOR, &mut self.monitor.asking());
             self.is_stopped = system.is_none() && self.monitor.is_late();
-            self.kept = Some(CachedFactor { system: system?, pieces });
+            self.kept = Some((system?, pieces));
         }
-        self.kept.as_mut()
+        self.kept.as_mut().map(|(system, _)| system)
     }
 }

@@ -8,7 +8,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::law::Vector;
+use crate::law::{Vector, references};
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
 use crate::solve::sweeps::sweep_pairs;
@@ -50,11 +50,7 @@ pub(super) fn swept(
 ) -> Vec<Vector> {
     let mut d = match start {
         Some(start) => start.to_vec(),
-        None if whole.dim == 2 => {
-            let mut d = Vec::with_capacity(whole.root.len());
-            whole.laws.iter().for_each(|law| d.extend_from_slice(&law.reference()[..2]));
-            d
-        }
+        None if whole.dim == 2 => references(&whole.laws, 2).collect(),
         None => vec![0.0; whole.root.len()],
     };
     for (law, normal) in whole.laws.iter().zip(d.iter_mut().step_by(whole.dim)) {
@@ -65,13 +61,9 @@ pub(super) fn swept(
     let (fewest, most) = rounds.sweeps.into_inner();
     let sweeps = (whole.root.len() / UNKNOWNS_PER_SWEEP).clamp(fewest, most);
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega, monitor: &mut Monitor<'_>| {
-        let mut one = |omega| {
-            if !monitor.is_late() {
-                sweep_pairs(&whole.laws, whole.matrix, (&mut *d, &mut *force), omega);
-            }
-        };
-        (1..sweeps).for_each(|_| one(omega));
-        one(1.0);
+        for sweeps in [(sweeps - 1, omega), (1, 1.0)] {
+            sweep_pairs(&whole.laws, whole.matrix, (&mut d[..], &mut force[..]), sweeps, monitor);
+        }
         whole.eta(d, force)
     };
     let (mut pieces, mut eta) = (Vec::new(), f64::INFINITY);

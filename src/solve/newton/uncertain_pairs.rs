@@ -97,9 +97,7 @@ impl InQuestion {
         let mut force = contact.problem().force(&d);
         let (laws, matrix) = (contact.pairs(), contact.problem().stiffness());
         let mut swept = |d: &mut Vec<f64>| {
-            if !monitor.is_late() {
-                sweep_pairs(laws, matrix, (&mut *d, &mut force), 1.0);
-            }
+            sweep_pairs(laws, matrix, (&mut d[..], &mut force), (1, 1.0), monitor);
             contact.pieces(d, &force)
         };
         let mut pieces = Vec::new();

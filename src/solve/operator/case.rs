@@ -8,7 +8,7 @@ use super::session::Session;
 use super::{condensed, thresholds};
 use crate::certificate::{Certificate, is_spread_escape, measure_spread};
 use crate::error::{Argument, Error};
-use crate::law::{Contact, gaps_within_reach};
+use crate::law::{Contact, gaps_within_reach, references};
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, StiffnessOperator};
@@ -183,14 +183,8 @@ impl<'a> Loaded<'a> {
         bodies.hold_all(self.case.dim, monitor)?;
         let mut at = self.at_zero.clone();
         let of_pairs = &mut at.x[bodies.operator.inner()..];
-        let references = near.pairs().iter().flat_map(|law| {
-            let reference = law.reference();
-            reference.into_iter().take(self.case.dim)
-        });
-        match start {
-            Some(start) => of_pairs.copy_from_slice(&near.admissible(start)),
-            None => of_pairs.iter_mut().zip(references).for_each(|(x, r)| *x = r),
-        }
+        let references = || references(near.pairs(), self.case.dim).collect();
+        of_pairs.copy_from_slice(&start.map_or_else(references, |start| near.admissible(start)));
         if of_pairs.iter().all(|x| *x == 0.0) && !bodies.operator.is_exact() {
             return Ok(at);
         }

@@ -21,7 +21,7 @@ use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
 use crate::solve::part::{PairData, closed_with_margin};
 use crate::solve::plan;
-use crate::solve::result::{Call, Ending, Status};
+use crate::solve::result::{Call, Ending, Solution, Status};
 
 /// Most components of `C`: a system of the dense problem takes a second, and it may take a thousand of them.
 const MOST_COMPONENTS: usize = 3000;
@@ -50,9 +50,9 @@ pub fn solve(
     let mut at = best.point.at.clone();
     while fits(equations.contact.dim() * chosen.len(), equations.load.len()) {
         let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
-        let joins: Vec<bool> = match condensed.solved(equations, &chosen, &at, monitor)? {
-            Found::Nothing => break,
-            Found::Solution(d) => {
+        let found = condensed.solved(equations, &chosen, &at, monitor)?;
+        let joins: Vec<bool> = match found {
+            Some(Solution { status: Status::Solved, d, .. }) => {
                 let point = condensed.with(bodies, at, (&d, equations.load), monitor)?;
                 let point = equations.held_at(point, bodies)?;
                 let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
@@ -63,7 +63,7 @@ pub fn solve(
                 }
                 closed
             }
-            Found::Escape(motion) => {
+            Some(Solution { status: Status::NoEquilibrium, recession: Some(motion), .. }) => {
                 let motion = condensed.motion(equations, bodies, &motion, monitor)?;
                 if is_spread_escape(equations.contact, bodies.operator, &motion)? {
                     return Err(Ending::Recession(motion));
@@ -71,6 +71,7 @@ pub fn solve(
                 let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
                 laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
             }
+            _ => break,
         };
         let before = chosen.len();
         chosen = (0..laws.len()).filter(|k| joins[*k] || chosen.binary_search(k).is_ok()).collect();
@@ -90,14 +91,6 @@ struct Condensed {
     /// Column-major.
     matrix: Vec<f64>,
     load: Vec<f64>,
-}
-
-/// The outcome of a dense problem, in displacements of its components.
-enum Found {
-    Solution(Vec<f64>),
-    /// A motion that proves that it has no equilibrium.
-    Escape(Vec<f64>),
-    Nothing,
 }
 
 impl Condensed {
@@ -191,15 +184,15 @@ impl Condensed {
         Ok(self.with(bodies, rest, (d, &nothing), monitor)?.x)
     }
 
-    /// Solves the dense problem from displacements of all unknowns. Its data may be none, as where rounding has left a
-    /// stiffness that is not positive.
+    /// The result of the dense problem, in displacements of its components, from displacements of all unknowns. `None`: its
+    /// data are none, as where rounding has left a stiffness that is not positive.
     fn solved(
         &self,
         whole: &Equations<'_>,
         pairs: &[usize],
         start: &Displacements,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Found, Ending> {
+    ) -> Result<Option<Solution>, Ending> {
         let problem = whole.contact.problem();
         let own = PairData::of(problem, pairs);
         let data = ContactData {
@@ -212,19 +205,12 @@ impl Condensed {
             law: problem.law().with_values(&own.parameters),
             reference_slip: Some(&own.slip),
         };
-        let Ok(problem) = ContactProblem::new(data) else { return Ok(Found::Nothing) };
+        let Ok(problem) = ContactProblem::new(data) else { return Ok(None) };
         let contact = &Contact::new(&problem);
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance: whole.tolerance, ..Settings::default() };
         let found = plan::solve(&Call::new(contact, &settings).from(&start), monitor)?;
-        if let Some(stop) = found.status.stop() {
-            return Err(stop.into());
-        }
-        Ok(match found.status {
-            Status::Solved => Found::Solution(found.d),
-            Status::NoEquilibrium => found.recession.map_or(Found::Nothing, Found::Escape),
-            _ => Found::Nothing,
-        })
+        found.status.stop().map_or(Ok(Some(found)), |stop| Err(stop.into()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::session::Session;
 use crate::error::Error;
-use crate::law::{Contact, Piece, Vector, natural_sum};
+use crate::law::{Contact, Piece, Vector, natural_sum, scale_roots};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
@@ -33,9 +33,8 @@ impl<'a> Equations<'a> {
         tolerance: f64,
     ) -> Self {
         let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
-        let scales =
-            contact.pairs().iter().flat_map(|law| law.scale().into_iter().take(contact.dim()));
-        root[bodies.inner()..].iter_mut().zip(scales).for_each(|(root, k)| *root = k.sqrt());
+        root.truncate(bodies.inner());
+        root.extend(scale_roots(contact.pairs(), contact.dim()));
         Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative), tolerance }
     }
 

@@ -3,7 +3,7 @@
 //! them ends.
 
 use super::newton::{self, Outcome, improve};
-use super::point::{Displacements, Equations, Point};
+use super::point::{Displacements, Equations};
 use super::session::Session;
 use crate::law::Contact;
 use crate::monitor::Monitor;
@@ -30,7 +30,8 @@ pub fn solve(
     let mut point = equations.held_at(start.clone(), bodies)?;
     for _ in 0..ROUNDS {
         let mut contact: Contact<'_, MatrixFree<'_>> = equations.contact.clone();
-        contact.set_thresholds(&thresholds(equations, &point));
+        let (d, forces) = (&point.at.x[equations.inner..], &point.residual[equations.inner..]);
+        contact.set_thresholds(&contact.thresholds(d, forces));
         let root = equations.root.clone();
         let given = Equations { contact: &contact, root, tolerance: ROUGH, ..*equations };
         let from = given.held_at(point.at, bodies)?;
@@ -44,10 +45,4 @@ pub fn solve(
         }
     }
     Ok(())
-}
-
-/// The friction that the pairs can carry under the forces at a point.
-fn thresholds(equations: &Equations<'_>, point: &Point) -> Vec<f64> {
-    let (d, forces) = (&point.at.x[equations.inner..], &point.residual[equations.inner..]);
-    equations.contact.each(d, forces).map(|(law, _, force)| law.threshold(force[0])).collect()
 }

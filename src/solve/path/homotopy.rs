@@ -1,7 +1,6 @@
 //! The homotopy from any point to the contact problem, and its values on given pieces.
 
-use crate::law::Piece;
-use crate::law::Vector;
+use crate::law::{Piece, Vector, references};
 use crate::linalg::vector::dot;
 use crate::solve::pieces::Equations;
 
@@ -42,8 +41,7 @@ impl<'e> Homotopy<'e> {
         let dim = equations.dim;
         let base: Vec<f64> = start.iter().flat_map(|y| y[..dim].iter().copied()).collect();
         // f - K (gap, slip0): the force that the law's corner would need.
-        let corner: Vec<f64> =
-            equations.laws.iter().flat_map(|law| law.reference().into_iter().take(dim)).collect();
+        let corner: Vec<f64> = references(&equations.laws, dim).collect();
         let size = equations.length(&equations.force(&corner)).max(equations.length(&base));
         Homotopy { equations, base, size: if size > 0.0 { size } else { 1.0 } }
     }

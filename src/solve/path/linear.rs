@@ -86,16 +86,14 @@
 //! *Limits.* The number of events is not bounded by a polynomial.
 
 use super::linear_start::{ATTEMPTS, Attempt, ON_UNCERTAIN_PAIRS, Starts, with_given_thresholds};
-use super::linear_walk::{Walk, WalkEnd};
+use super::linear_walk::{LOST, Walk};
 use crate::counters::count;
+use crate::law::references;
 use crate::monitor::Monitor;
 use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid;
-
-/// Why there is no solution.
-const LOST: &str = "the path does not arrive";
 
 /// Solves a problem in the plane. An iteration is an event: a pair that passes from one piece to the next.
 pub fn linear(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
@@ -133,18 +131,17 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
     let Call { contact, settings, start } = *call;
     let equations = Equations::of(contact);
     // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
-    let reference: Vec<f64> =
-        contact.pairs().iter().flat_map(|law| law.reference()[..2].to_vec()).collect();
+    let reference: Vec<f64> = references(contact.pairs(), 2).collect();
     let load: Vec<f64> = equations.force(&reference).iter().map(|force| -force).collect();
     let mut starts = Starts::new(contact, &equations.root, equations.length(&load), start);
-    let mut best = Candidate::without_displacements(contact, Ending::Stalled(LOST));
+    let mut best = Candidate::without_displacements(contact, LOST);
     let mut effort = Effort::default();
     for (number, &attempt) in attempts.iter().enumerate() {
         let y = starts.next(attempt, monitor);
         let mut walk = match Walk::new(&equations, &load, &y, monitor) {
             Ok(walk) => walk,
-            Err(WalkEnd::Stopped(stop)) => {
-                best.ending = Ending::Stopped(stop);
+            Err(ending @ Ending::Stopped(_)) => {
+                best.ending = ending;
                 break;
             }
             Err(_) => continue,
@@ -171,17 +168,21 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
 }
 
 /// The candidate of a walk that has ended.
-fn ended(call: &Call<'_>, walk: &Walk<'_>, end: WalkEnd, monitor: &mut Monitor<'_>) -> Candidate {
+fn ended(
+    call: &Call<'_>,
+    walk: &Walk<'_>,
+    end: Result<(), Ending>,
+    monitor: &mut Monitor<'_>,
+) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        WalkEnd::Arrived => return from_pieces(&call.from(&d), &walk.pieces, monitor),
-        WalkEnd::Lost => Ending::Stalled(LOST),
+        Ok(()) => return from_pieces(&call.from(&d), &walk.pieces, monitor),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
-        WalkEnd::Ray(motion) => {
+        Err(Ending::Recession(motion)) => {
             Ending::Recession(rigid::escape(call.contact, monitor).unwrap_or(motion))
         }
-        WalkEnd::Stopped(stop) => Ending::Stopped(stop),
+        Err(ending) => ending,
     };
     Candidate::of_displacements(call.contact, d, ending)
 }

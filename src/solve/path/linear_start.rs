@@ -122,12 +122,8 @@ impl<'p> Starts<'p> {
             self.d = self.contact.admissible(&self.d);
             self.force = self.contact.problem().force(&self.d);
         }
-        for _ in 0..attempt.sweeps {
-            if monitor.is_late() {
-                break;
-            }
-            sweep_pairs(laws, matrix, (&mut self.d, &mut self.force), 1.0);
-        }
+        let iterate = (&mut self.d[..], &mut self.force[..]);
+        sweep_pairs(laws, matrix, iterate, (attempt.sweeps, 1.0), monitor);
         let swept = self.swept();
         let pairs = self.contact.pairs().iter().zip(swept).zip(self.root.chunks_exact(2));
         let start = |((law, y), root): ((&PairLaw, Planar), &[f64])| match attempt.start {

@@ -3,8 +3,9 @@
 use crate::law::{Linearised, Piece, PieceExit, Planar};
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::largest_of;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, System, Updated, by_pairs};
+use crate::solve::result::Ending;
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as
 /// large as what is looked for.
@@ -30,17 +31,8 @@ pub struct Rules {
     pub age: usize,
 }
 
-/// How a walk ended.
-pub enum WalkEnd {
-    /// At the loads of the problem.
-    Arrived,
-    /// Below the loads of the start for ever; the system of a piece is singular; too many events.
-    Lost,
-    /// On a ray with a rigid motion.
-    Ray(Vec<f64>),
-    /// A budget is used up, or the callback cancelled.
-    Stopped(Stop),
-}
+/// The end of a walk below the loads of the start for ever, on a piece whose system is singular, or after too many events.
+pub const LOST: Ending = Ending::Stalled("the path does not arrive");
 
 /// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
 pub struct Walk<'p> {
@@ -71,7 +63,7 @@ impl<'p> Walk<'p> {
         load: &[f64],
         start: &[Planar],
         monitor: &mut Monitor<'_>,
-    ) -> Result<Self, WalkEnd> {
+    ) -> Result<Self, Ending> {
         let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (law, y) in equations.laws.iter().zip(start) {
             let y = [y[0], y[1], 0.0];
@@ -99,38 +91,34 @@ impl<'p> Walk<'p> {
         })
     }
 
-    /// Goes on to the end, with the sign of `det J`: downwards at first where that is negative, and below the loads of the
-    /// start if the way leads there.
-    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> WalkEnd {
+    /// Goes on to the loads of the problem, with the sign of `det J`: downwards at first where that is negative, and below the
+    /// loads of the start if the way leads there. `Err`: it ends elsewhere, as on a ray with a rigid motion.
+    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         for _ in 0..rules.most {
-            if let Err(stop) = monitor.step() {
-                return WalkEnd::Stopped(stop);
-            }
+            monitor.step()?;
             let sign = f64::from(self.system.sign());
             let exit = self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step));
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
             let step = exit.as_ref().map_or(left, |(_, exit)| exit.step.min(left));
             if !step.is_finite() {
-                return WalkEnd::Lost;
+                return Err(LOST);
             }
             if step * self.equations.length(&self.rate)
                 > FAR * (self.equations.length(&self.y) + self.size)
                 && let Some(motion) = self.rigid(&self.rate, sign)
             {
-                return WalkEnd::Ray(motion);
+                return Err(Ending::Recession(motion));
             }
             for (y, rate) in self.y.iter_mut().zip(&self.rate) {
                 *y += sign * step * rate;
             }
             self.s += sign * step;
             let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
-                return WalkEnd::Arrived;
+                return Ok(());
             };
-            if let Err(end) = self.pass(pair, &exit, rules, monitor) {
-                return end;
-            }
+            self.pass(pair, &exit, rules, monitor)?;
         }
-        WalkEnd::Lost
+        Err(LOST)
     }
 
     /// The next boundary of each pair that comes to one on the way.
@@ -150,7 +138,7 @@ impl<'p> Walk<'p> {
         exit: &PieceExit,
         rules: Rules,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(), WalkEnd> {
+    ) -> Result<(), Ending> {
         self.events += 1;
         let laws = &self.equations.laws;
         let beyond =
@@ -164,16 +152,16 @@ impl<'p> Walk<'p> {
             likely.insert(0, (pair, *exit));
             let likely: Vec<(usize, Linearised)> = likely.into_iter().map(beyond).collect();
             let prepared = self.system.prepare(&likely, BLOCK, &mut monitor.asking());
-            prepared.ok_or(WalkEnd::Lost)?;
+            prepared.ok_or(LOST)?;
         }
-        let change = self.system.change(&change, &mut monitor.asking()).ok_or(WalkEnd::Lost)?;
+        let change = self.system.change(&change, &mut monitor.asking()).ok_or(LOST)?;
         self.pieces[pair] = exit.beyond;
         let singular = change.pivot().abs() < SMALL_PIVOT;
         let ray = if singular { change.z.clone() } else { Vec::new() };
         let made = self.system.make(change, &mut monitor.asking());
         let made = made.map(|()| self.system.follow(&mut self.rate));
         if singular && let Some(motion) = self.rigid(&ray, 1.0) {
-            return Err(WalkEnd::Ray(motion));
+            return Err(Ending::Recession(motion));
         }
         if singular || made.is_none() || self.system.age() >= rules.age {
             self.refactorise(monitor)?;
@@ -182,7 +170,7 @@ impl<'p> Walk<'p> {
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
-    fn refactorise(&mut self, monitor: &mut Monitor<'_>) -> Result<(), WalkEnd> {
+    fn refactorise(&mut self, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         self.factorisations += 1;
         self.system = factorised(self.equations, &self.pieces, monitor)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
@@ -200,7 +188,7 @@ impl<'p> Walk<'p> {
         self.y = self.system.solve(&side);
         self.rate = self.system.solve(&self.change);
         let finite = self.y.iter().chain(&self.rate).all(|x| x.is_finite());
-        if finite { Ok(()) } else { Err(WalkEnd::Lost) }
+        if finite { Ok(()) } else { Err(LOST) }
     }
 
     /// The motion of the coordinates' direction `sign way`, if it is rigid. Below the start a ray says nothing of the
@@ -229,11 +217,11 @@ fn factorised<'p>(
     equations: &'p Equations<'p>,
     pieces: &[Piece],
     monitor: &mut Monitor<'_>,
-) -> Result<Updated<'p>, WalkEnd> {
+) -> Result<Updated<'p>, Ending> {
     let pairs = equations.laws.iter().zip(pieces);
     let pairs: Vec<Linearised> = pairs.map(|(law, piece)| law.linearised_on(*piece)).collect();
-    monitor.affords(System::work(equations, &pairs)).map_err(WalkEnd::Stopped)?;
-    Updated::new(equations, pairs, SINGULAR_BASIS, &mut monitor.asking()).ok_or(WalkEnd::Lost)
+    monitor.affords(System::work(equations, &pairs))?;
+    Updated::new(equations, pairs, SINGULAR_BASIS, &mut monitor.asking()).ok_or(LOST)
 }
 
 #[cfg(test)]
@@ -272,7 +260,7 @@ mod tests {
             assert_eq!(walk.first, [1.0, 1.5]);
             assert_eq!(f64::from(walk.system.sign()), sign);
             let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
-            assert!(matches!(end, WalkEnd::Arrived), "from {start:?}");
+            assert_eq!(end, Ok(()), "from {start:?}");
             assert_eq!(walk.events, events, "from {start:?}");
             let d = walk.displacements();
             assert!((d[0] + 1.0).abs() < 1e-14 && (d[1] - 1.0).abs() < 1e-14, "{d:?}");

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::before::Before;
 use crate::law::Piece;
-use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum};
+use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, scale_roots};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::{norm, norm_of};
 use crate::problem::{BoundedLcp, Remembered};
@@ -55,8 +55,7 @@ impl<'a> Equations<'a> {
         laws: Cow<'a, [PairLaw]>,
         unit: f64,
     ) -> Self {
-        let mut root = Vec::with_capacity(dim * laws.len());
-        laws.iter().for_each(|law| root.extend(law.scale()[..dim].iter().map(|k| k.sqrt())));
+        let root = scale_roots(&laws, dim).collect();
         Equations { dim, matrix, symmetric: true, load, laws, root, unit, remembered: None }
     }
 

@@ -11,7 +11,7 @@
 //! lack, which is nothing at a solution.
 
 use super::step::ended;
-use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum};
+use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, references, scale_roots};
 use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
@@ -77,9 +77,7 @@ pub struct LawPoint {
 impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// The equations, undamped if `W` is definite.
     pub fn new(contact: &'c Contact<'p, Flexibility<'p>>, is_definite: bool) -> Self {
-        let scales =
-            contact.pairs().iter().flat_map(|law| law.scale().into_iter().take(contact.dim()));
-        let root = scales.map(f64::sqrt).collect();
+        let root = scale_roots(contact.pairs(), contact.dim()).collect();
         OnFlexibility { contact, is_definite, root, systems: 0 }
     }
 
@@ -95,10 +93,9 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
     /// The length of `H` where there is no force and no slip beside the reference.
     pub fn size(&self) -> f64 {
-        let dim = self.contact.dim();
-        let laws = self.contact.pairs().iter();
-        let reference = laws.flat_map(|law| law.reference().into_iter().take(dim));
-        let lack = reference.zip(self.relation().free).map(|(r, q)| r - q);
+        let lack = references(self.contact.pairs(), self.contact.dim())
+            .zip(self.relation().free)
+            .map(|(r, q)| r - q);
         self.length(&lack.collect::<Vec<f64>>())
     }
 

@@ -13,9 +13,25 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 
+/// So many sweeps with a factor, fewer if the time is up.
+pub fn sweep_in_time(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
+    (d, force): (&mut [f64], &mut [f64]),
+    (sweeps, omega): (usize, f64),
+    monitor: &mut Monitor<'_>,
+) {
+    for _ in 0..sweeps {
+        if monitor.is_late() {
+            break;
+        }
+        sweep(laws, matrix, (&mut *d, &mut *force), omega);
+    }
+}
+
 /// One sweep over all pairs on displacements and their force `K d - f`. Under Coulomb's law the threshold follows the
 /// pressure within the sweep. Returns the change in the norm of the diagonal of `K`.
-pub fn sweep(
+fn sweep(
     laws: &[PairLaw],
     matrix: Matrix<'_>,
     iterate: (&mut [f64], &mut [f64]),
@@ -58,17 +74,15 @@ pub struct ContactIterate<'p> {
 
 impl<'p> ContactIterate<'p> {
     /// Starts from `d`, made admissible.
-    pub fn new(contact: &'p Contact<'p>, mut d: Vec<f64>) -> Self {
-        for (law, normal) in contact.pairs().iter().zip(d.iter_mut().step_by(contact.dim())) {
-            *normal = law.admissible(*normal);
-        }
+    pub fn new(contact: &'p Contact<'p>, d: &[f64]) -> Self {
+        let d = contact.admissible(d);
         let force = contact.problem().force(&d);
         ContactIterate { own: contact, working: None, d, force }
     }
 
     /// Thresholds of the problem's own law at the pressures of the iterate.
     pub fn thresholds(&self) -> Vec<f64> {
-        self.own.each(&self.d, &self.force).map(|(law, _, force)| law.threshold(force[0])).collect()
+        self.own.thresholds(&self.d, &self.force)
     }
 
     /// Lets the following sweeps obey given thresholds.
@@ -80,21 +94,17 @@ impl<'p> ContactIterate<'p> {
     pub fn into_parts(self) -> (Vec<f64>, Vec<f64>) {
         (self.d, self.force)
     }
-
-    fn law(&self) -> &Contact<'p> {
-        self.working.as_ref().unwrap_or(self.own)
-    }
 }
 
 impl Iterate for ContactIterate<'_> {
     fn sweep(&mut self, omega: f64) -> f64 {
-        let law = self.working.as_ref().unwrap_or(self.own);
-        let matrix = self.own.problem().stiffness();
+        let (law, matrix) =
+            (self.working.as_ref().unwrap_or(self.own), self.own.problem().stiffness());
         sweep(law.pairs(), matrix, (&mut self.d, &mut self.force), omega)
     }
 
     fn eta_of_sweeps(&self) -> f64 {
-        eta_of(self.law(), &self.d, &self.force)
+        eta_of(self.working.as_ref().unwrap_or(self.own), &self.d, &self.force)
     }
 
     fn eta(&self) -> f64 {

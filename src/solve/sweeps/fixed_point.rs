@@ -41,7 +41,7 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     } else {
         LARGEST_FACTOR
     };
-    let iterate = ContactIterate::new(contact, call.start_or_zero());
+    let iterate = ContactIterate::new(contact, &call.start_or_zero());
     let mut driver = Driver::new(iterate, settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     let effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
@@ -51,7 +51,7 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
 /// Solves Coulomb's problem as a sequence of Tresca problems.
 pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let iterate = ContactIterate::new(contact, call.start_or_zero());
+    let iterate = ContactIterate::new(contact, &call.start_or_zero());
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut damping = Damping::new(settings.damping);
     let mut thresholds = driver.iterate.thresholds();

@@ -47,10 +47,6 @@ impl Iterate for LcpIterate<'_> {
         sweep(&self.lcp, &mut self.x, &mut self.w, omega)
     }
 
-    fn eta_of_sweeps(&self) -> f64 {
-        self.eta()
-    }
-
     fn eta(&self) -> f64 {
         self.lcp.eta(&self.x, &self.w)
     }

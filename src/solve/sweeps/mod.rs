@@ -9,7 +9,7 @@ mod frictionless;
 mod lcp_iterate;
 mod relaxation;
 
-pub use contact_iterate::sweep as sweep_pairs;
+pub use contact_iterate::sweep_in_time as sweep_pairs;
 pub use fixed_point::{nested, single};
 pub use frictionless::frictionless;
 pub use lcp_iterate::sweep as sweep_lcp;
@@ -23,7 +23,9 @@ pub trait Iterate {
     fn sweep(&mut self, omega: f64) -> f64;
 
     /// `eta` under the law that the sweeps obey, from the carried residual.
-    fn eta_of_sweeps(&self) -> f64;
+    fn eta_of_sweeps(&self) -> f64 {
+        self.eta()
+    }
 
     /// `eta` under the problem's own law, from the carried residual.
     fn eta(&self) -> f64;
