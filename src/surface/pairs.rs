@@ -164,9 +164,7 @@ impl SurfacePair {
         let held = [false; 3];
         SurfacePair { slave, nodes, point, normal, tangents, gap, area, held }
     }
-}
 
-impl SurfacePair {
     /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
     /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
     /// in a neighbour with little cover has that neighbour.

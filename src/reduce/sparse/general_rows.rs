@@ -49,14 +49,7 @@ struct KeptRows<'r> {
     kept: usize,
 }
 
-/// The host's side of rows: its supports, and what follows from others.
-pub(super) struct HostDofs<'h> {
-    /// The place of each degree of freedom among the fixed ones.
-    pub(super) places: &'h [Option<usize>],
-    pub(super) dependents: &'h Dependents,
-}
-
-/// Solves `rows` for degrees of freedom of the host. Turns `frames` along what supports hold; about their normals at
+/// Solves `rows` for degrees of freedom of the host, of which `places` are those among the fixed ones. Turns `frames` along what supports hold; about their normals at
 /// will if they `may_turn`.
 ///
 /// # Errors
@@ -64,9 +57,8 @@ pub(super) struct HostDofs<'h> {
 pub(super) fn general_rows(
     rows: &Rows,
     (frames, may_turn): (&mut [Frame], bool),
-    host: &HostDofs<'_>,
+    (places, dependents): (&[Option<usize>], &Dependents),
 ) -> Result<GeneralRows, Error> {
-    let places = host.places;
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
     let solved = solve(&rows.equations, places.len(), &may_choose);
     let mut supports = Vec::new();
@@ -75,7 +67,7 @@ pub(super) fn general_rows(
         supports.extend(held.map(|held| held.along(frame, may_turn, places)).unwrap_or_default());
     }
     let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
-    rows.assembled(&solved, supports, host.dependents)
+    rows.assembled(&solved, supports, dependents)
         .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
 }
 

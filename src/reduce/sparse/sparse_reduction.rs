@@ -3,7 +3,7 @@
 use super::change_of_variables::{ChangeOfVariables, contact_forces};
 use super::control::{Asked, Control, ranks};
 use super::full_space::FullSpace;
-use super::general_rows::{GeneralRows, HostDofs, general_rows};
+use super::general_rows::{GeneralRows, general_rows};
 use super::host_arrays::SparseMatrix;
 use super::messages;
 use super::supports::{self, FixedComponent};
@@ -83,7 +83,7 @@ impl SparseReduction {
         let mut frames = pairs.frames()?;
         let may_turn = pairs.tangents.is_none();
         let GeneralRows { variables, supports, dependent } =
-            general_rows(&rows, (&mut frames, may_turn), &HostDofs { places, dependents })?;
+            general_rows(&rows, (&mut frames, may_turn), (places, dependents))?;
         let own = dependent.is_none() && rows.have_own_slaves;
         (control.ask)(0.0, 0)?;
         let contact_forces = contact_forces(matrix.size, &rows, &frames).map_err(memory)?;

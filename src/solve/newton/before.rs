@@ -23,16 +23,6 @@ pub struct Kept {
     pub of_candidates: Remembered,
 }
 
-/// The problem reduced by an elimination of the problem before, if all that are eliminated are free when they are open.
-pub fn reduced<'w>(
-    whole: &'w Equations<'w>,
-    elimination: &Arc<Elimination>,
-) -> Option<ReducedProblem<'w>> {
-    let mut components = elimination.dropped.iter();
-    let are_free = components.all(|i| whole.laws[i / whole.dim].is_free_when_open());
-    are_free.then(|| ReducedProblem::by_elimination(whole, Arc::clone(elimination)))
-}
-
 /// Where steps with the factors of the problem before lead from its solution, whose displacements are `start`; `Done` if
 /// that is a solution. `None`: they lead nowhere. Of what is remembered an elimination stays.
 pub fn again(
@@ -46,7 +36,7 @@ pub fn again(
         return iteration::solve_again(whole, start, tolerance, monitor);
     }
     let Kept { elimination, of_candidates } = remembered.take()?;
-    let reduced = reduced(whole, &elimination)?;
+    let reduced = ReducedProblem::by_elimination(whole, &elimination)?;
     let part = Equations { remembered: Some(&of_candidates), ..reduced.equations() };
     let found = again(&part, &reduced.restrict(start), tolerance, monitor);
     drop(part);

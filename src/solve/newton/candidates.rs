@@ -17,10 +17,10 @@
 
 use std::sync::Arc;
 
-use super::before::{Kept, reduced};
+use super::before::Kept;
 use super::iteration::{Ended, OPEN};
 use super::start::swept;
-use crate::law::Vector;
+use crate::law::{FixedState, Vector};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::Remembered;
 use crate::solve::part::{ReducedProblem, closed_with_margin, many_are_open};
@@ -72,7 +72,7 @@ fn begun<'w>(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
-    let reduced = reduced(whole, &before.elimination)?;
+    let reduced = ReducedProblem::by_elimination(whole, &before.elimination)?;
     let start: Option<Vec<f64>> = start.map(|start| reduced.restrict(start));
     let equations = reduced.equations();
     let own = swept(&equations, start.as_deref(), monitor);
@@ -172,7 +172,7 @@ impl Search<'_, '_> {
     }
 
     /// The problem on the candidates at the coordinates `y` and on the pairs that were `kept` before, unless a series has
-    /// too many of these; as [`ReducedProblem::new`].
+    /// too many of these, with all others open; as [`ReducedProblem::new`].
     fn widened<'w>(
         &self,
         whole: &'w Equations<'w>,
@@ -192,7 +192,9 @@ impl Search<'_, '_> {
         if self.is_series && kept.len() as f64 > TOO_MANY * needed.len() as f64 {
             *kept = needed;
         }
-        ReducedProblem::of_candidates(whole, kept, monitor)
+        let mut states = vec![Some(FixedState::Open); y.len()];
+        kept.iter().for_each(|&pair| states[pair] = None);
+        ReducedProblem::new(whole, &states, monitor)
     }
 }
 

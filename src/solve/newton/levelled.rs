@@ -7,16 +7,13 @@ use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Ending};
 
-/// A solution on levelled tangents, on those of the problem.
-pub struct Levelled {
-    /// Displacements.
-    pub d: Vec<f64>,
-    /// Systems that were factorised.
-    pub systems: u64,
-}
-
-/// Solves a problem in space on levelled tangents; `None` where no pair needs them, and where that fails.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Option<Levelled> {
+/// Solves a problem in space on levelled tangents: the displacements on those of the problem, and the systems that were
+/// factorised. `None` where no pair needs them, and where that fails.
+pub fn solve(
+    call: &Call<'_>,
+    monitor: &mut Monitor<'_>,
+    core: &mut Core<'_>,
+) -> Option<(Vec<f64>, u64)> {
     let (contact, problem) = (call.contact, call.contact.problem());
     let of_pair = |(pair, law)| LevelledTangents::of(law, problem.tangential_block(pair));
     let tangents = || contact.pairs().iter().enumerate().map(of_pair);
@@ -36,10 +33,8 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let start = call.start.map(|start| changed(start, &tangents, LevelledTangents::levelled));
     let call = Call { contact: &levelled, settings: call.settings, start: start.as_deref() };
     let found = candidates::solve(&call, monitor, core);
-    (found.ending == Ending::Done).then(|| Levelled {
-        d: changed(found.d(), &tangents, LevelledTangents::displacement),
-        systems: found.effort.factorisations,
-    })
+    let d = || changed(found.d(), &tangents, LevelledTangents::displacement);
+    (found.ending == Ending::Done).then(|| (d(), found.effort.factorisations))
 }
 
 /// A vector with the tangential parts of pairs changed.

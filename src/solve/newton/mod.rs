@@ -55,9 +55,9 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let levelled = if in_space { levelled::solve(call, monitor, core) } else { None };
     match levelled {
         None => on_candidates(call, monitor, core),
-        Some(levelled) => {
-            let mut candidate = on_candidates(&call.from(&levelled.d), monitor, core);
-            candidate.effort.factorisations += levelled.systems;
+        Some((d, systems)) => {
+            let mut candidate = on_candidates(&call.from(&d), monitor, core);
+            candidate.effort.factorisations += systems;
             candidate
         }
     }

@@ -60,20 +60,16 @@ impl<'w> ReducedProblem<'w> {
         Ok(elimination.map(|elimination| Self::by(whole, Arc::new(elimination), stuck)))
     }
 
-    /// Keeps `pairs`, with all others open; otherwise as [`Self::new`].
-    pub fn of_candidates(
+    /// The problem reduced by an elimination of an earlier one, if all pairs that are eliminated are free when they are
+    /// open.
+    pub fn by_elimination(
         whole: &'w Equations<'w>,
-        pairs: &[usize],
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Self>, Stop> {
-        let mut states = vec![Some(FixedState::Open); whole.laws.len()];
-        pairs.iter().for_each(|&pair| states[pair] = None);
-        Self::new(whole, &states, monitor)
-    }
-
-    /// The problem reduced by an elimination of components of its matrix, all of open pairs.
-    pub fn by_elimination(whole: &'w Equations<'w>, elimination: Arc<Elimination>) -> Self {
-        Self::by(whole, elimination, vec![0.0; whole.root.len()])
+        elimination: &Arc<Elimination>,
+    ) -> Option<Self> {
+        let mut components = elimination.dropped.iter();
+        let are_free = components.all(|i| whole.laws[i / whole.dim].is_free_when_open());
+        let nothing = || vec![0.0; whole.root.len()];
+        are_free.then(|| Self::by(whole, Arc::clone(elimination), nothing()))
     }
 
     fn by(whole: &'w Equations<'w>, elimination: Arc<Elimination>, stuck: Vec<f64>) -> Self {

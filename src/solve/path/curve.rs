@@ -80,15 +80,6 @@ enum Condition {
     End,
 }
 
-/// A step along the curve.
-struct Advance {
-    place: PathPoint,
-    /// The condition that the place meets.
-    condition: Condition,
-    /// Length of the step along the tangent.
-    length: f64,
-}
-
 impl<'h> Curve<'h> {
     /// The curve that begins at `start`, the base of the homotopy.
     pub fn new(homotopy: &'h Homotopy<'h>, start: Vec<Vector>, deviation: f64) -> Self {
@@ -105,7 +96,7 @@ impl<'h> Curve<'h> {
         while self.systems <= most {
             let mut local = self.local(&border, monitor)?;
             let size = 1.0 + self.homotopy.norm(&self.place);
-            let Advance { place, condition, length } =
+            let (place, condition, length) =
                 self.advance(&mut local, step.min(LONGEST * size), monitor)?;
             self.place = place;
             border = self.homotopy.dual(&local.tangent);
@@ -123,15 +114,15 @@ impl<'h> Curve<'h> {
         Err(Ending::Stalled("the path of solutions is too long"))
     }
 
-    /// The next place of the curve: at most `step` along the tangent, at the first boundary, or at the end.
-    /// Steps are halved until the corrector finds a place near by in which no other pair has left its
+    /// The next place of the curve: at most `step` along the tangent, at the first boundary, or at the end; with the
+    /// condition that it meets, and the length of the step along the tangent. Steps are halved until the corrector finds a place near by in which no other pair has left its
     /// piece.
     fn advance(
         &mut self,
         local: &mut Local,
         step: f64,
         monitor: &mut Monitor<'_>,
-    ) -> Result<Advance, Ending> {
+    ) -> Result<(PathPoint, Condition, f64), Ending> {
         let tangent = local.tangent.clone();
         let (leave, pair, boundary) = self.exit(&tangent);
         let end = if tangent.s > 0.0 { (1.0 - self.place.s) / tangent.s } else { f64::INFINITY };
@@ -152,7 +143,7 @@ impl<'h> Curve<'h> {
                 let deviation = self.homotopy.norm(&predicted.to(&place));
                 let most = self.deviation * reach * length.max(ROUNDING_OF_PLACE);
                 if deviation <= most && self.is_inside(&place, crossed) {
-                    return Ok(Advance { place, condition, length });
+                    return Ok((place, condition, length));
                 }
             }
             length /= 2.0;

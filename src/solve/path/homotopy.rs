@@ -66,9 +66,7 @@ impl<'e> Homotopy<'e> {
         let stretch = equations.length(&stretch);
         Value { terms: equations.length(&push), lack, rate, merit, stretch }
     }
-}
 
-impl Homotopy<'_> {
     /// Length of a point or direction, with coordinates in units of the homotopy's size and `s`.
     pub fn norm(&self, a: &PathPoint) -> f64 {
         self.dual(a).apply(a).sqrt()

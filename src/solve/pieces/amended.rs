@@ -17,7 +17,8 @@ use crate::linalg::watched::GoesOn;
 /// A factorised system with a change.
 pub struct Amended<'e> {
     equations: &'e Equations<'e>,
-    base: System,
+    /// The system that was factorised.
+    pub base: System,
     /// The unknowns of columns of `J⁻¹ (K / k - 1)`.
     columns: Columns,
     change: Option<Change>,
@@ -52,21 +53,6 @@ impl<'e> Amended<'e> {
     pub fn of(equations: &'e Equations<'e>, base: System) -> Self {
         let columns = Columns::none(equations.root.len(), base.size());
         Amended { equations, base, columns, change: None }
-    }
-
-    /// The system that was factorised.
-    pub fn into_base(self) -> System {
-        self.base
-    }
-
-    /// Unknowns that were factorised.
-    pub fn size(&self) -> usize {
-        self.base.size()
-    }
-
-    /// True if the system that was factorised is that of `pairs`.
-    pub fn is_of(&self, pairs: &[Linearised]) -> bool {
-        self.base.pairs() == pairs
     }
 
     fn terms(&self, pairs: &[Linearised]) -> Vec<Term> {

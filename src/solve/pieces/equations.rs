@@ -104,17 +104,6 @@ impl<'a> Equations<'a> {
         places.map(|(law, (&piece, y))| law.linearised(piece, y)).collect()
     }
 
-    /// How displacements change where the coordinates of pairs on their pieces change by `y`.
-    pub fn displaced(&self, pairs: &[Linearised], y: &[f64]) -> Vec<f64> {
-        let mut dd = Vec::with_capacity(y.len());
-        let units = self.root.chunks_exact(self.dim);
-        for ((pair, y), root) in pairs.iter().zip(by_pairs(self.dim, y)).zip(units) {
-            let moved = pair.moved(&y);
-            dd.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
-        }
-        dd
-    }
-
     /// True if the law is linear on each piece: in the plane, and of complementarity problems.
     pub fn are_linear(&self) -> bool {
         self.dim < 3

@@ -66,7 +66,7 @@ impl<'e> Systems<'e> {
     /// Leaves the last system, and the solution, for the next problem with the same matrix.
     pub fn leave(self, solution: impl FnOnce() -> Before) {
         if let (Some(remembered), Some(last)) = (self.equations.remembered, self.last) {
-            remembered.leave(Left { system: last.into_base(), solution: solution() });
+            remembered.leave(Left { system: last.base, solution: solution() });
         }
     }
 
@@ -74,8 +74,8 @@ impl<'e> Systems<'e> {
     /// takes fewer than a new factorisation.
     fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
         let system = self.last.as_ref().filter(|_| self.are_of_pieces())?;
-        if system.size() < SMALL {
-            return system.is_of(pairs).then_some(0.0);
+        if system.base.size() < SMALL {
+            return (system.base.pairs() == pairs).then_some(0.0);
         }
         let work = system.work(pairs);
         (work <= System::work(self.equations, pairs)).then_some(work)

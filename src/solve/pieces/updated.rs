@@ -13,7 +13,7 @@
 //! be singular where that of all changes is not.
 
 use super::columns::Columns;
-use super::equations::Equations;
+use super::equations::{Equations, by_pairs};
 use super::system::System;
 use super::term::{Term, terms};
 use crate::law::Linearised;
@@ -180,7 +180,15 @@ impl<'e> Updated<'e> {
 
     /// The displacements along which the coordinates move when they move by `y`, in the plane.
     pub fn motion(&self, y: &[f64]) -> Vec<f64> {
-        self.equations.displaced(&self.pairs, y)
+        let Equations { dim, root, .. } = self.equations;
+        let mut dd = Vec::with_capacity(y.len());
+        for ((pair, y), root) in
+            self.pairs.iter().zip(by_pairs(*dim, y)).zip(root.chunks_exact(*dim))
+        {
+            let moved = pair.moved(&y);
+            dd.extend(moved.iter().zip(root).map(|(moved, root)| moved / (root * root)));
+        }
+        dd
     }
 }
 

@@ -37,16 +37,6 @@ impl<'p> Springs<'p> {
             by_all_means,
         }))
     }
-
-    /// Springs of another compliance, if there are any, and time for them.
-    fn change(&mut self, by: f64, monitor: &mut Monitor<'_>) {
-        let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
-        if compliance != self.compliance
-            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, monitor)
-        {
-            (self.compliance, self.stiffness) = (compliance, stiffness);
-        }
-    }
 }
 
 impl InSeries for Springs<'_> {
@@ -66,12 +56,15 @@ impl InSeries for Springs<'_> {
         force.iter().map(|force| -force).collect()
     }
 
-    fn soften(&mut self, monitor: &mut Monitor<'_>) {
-        self.change(1.0 / FACTOR, monitor);
-    }
-
-    fn stiffen(&mut self, monitor: &mut Monitor<'_>) {
-        self.change(FACTOR, monitor);
+    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
+        let by = if softer { 1.0 / FACTOR } else { FACTOR };
+        let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
+        // Where there is no time for others these stay.
+        if compliance != self.compliance
+            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, monitor)
+        {
+            (self.compliance, self.stiffness) = (compliance, stiffness);
+        }
     }
 
     fn are_softest(&self) -> bool {

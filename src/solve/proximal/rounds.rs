@@ -64,11 +64,8 @@ pub trait InSeries {
     /// Moves the bodies by the step of a round. Where the forces determine the displacements there is nothing to do.
     fn advance(&mut self, _: &[f64]) {}
 
-    /// More compliant springs, if there are any.
-    fn soften(&mut self, _: &mut Monitor<'_>) {}
-
-    /// Less compliant springs, if there are any.
-    fn stiffen(&mut self, _: &mut Monitor<'_>) {}
+    /// More compliant springs if they are to be softer, otherwise less compliant ones, if there are any.
+    fn change(&mut self, _softer: bool, _: &mut Monitor<'_>) {}
 
     /// True if there are no softer ones, or none that a round is left to.
     fn are_softest(&self) -> bool {
@@ -184,7 +181,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let found = measured(&self.contact, round, result, self.settings);
         let eta = found.certificate.eta;
         if failed && eta >= self.last && !self.springs.are_softest() {
-            self.springs.soften(monitor);
+            self.springs.change(true, monitor);
             return Ok(false);
         }
         let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
@@ -199,7 +196,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         };
         let settled = settles(self.changes, self.settings.tolerance * norm_inf(&self.force));
         if !failed && is_slow && !settled {
-            self.springs.stiffen(monitor);
+            self.springs.change(false, monitor);
         }
         self.last = eta;
         let ends = self.keep(found, settled);

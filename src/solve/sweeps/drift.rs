@@ -78,20 +78,17 @@ pub fn contact_recession(
     let problem = contact.problem();
     let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift, monitor)?;
     let lifts = lifts(contact, &motion);
+    // A slip together with a lift of each pair, which makes contact forces do no negative work on it. Off a plane it is
+    // rigid if all are lifted by the same.
     let uniform = vec![norm_inf(&lifts); lifts.len()];
     [vec![0.0; lifts.len()], lifts, uniform]
         .into_iter()
-        .map(|lifts| lifted(contact.dim(), &motion, &lifts))
+        .map(|lifts| {
+            let mut motion = motion.clone();
+            let pairs = motion.chunks_exact_mut(contact.dim());
+            pairs.zip(lifts).for_each(|(r, by)| lift(r, by));
+            motion
+        })
         .find(|motion| is_escape_of(contact, motion))
         .or_else(|| contact.has_collinear_slip().then(|| escape(contact, monitor)).flatten())
-}
-
-/// A slip together with a lift of each pair, which makes contact forces do no negative work on it.
-/// Off a plane it is rigid if all are lifted by the same.
-fn lifted(dim: usize, motion: &[f64], lifts: &[f64]) -> Vec<f64> {
-    let mut motion = motion.to_vec();
-    for (r, &by) in motion.chunks_exact_mut(dim).zip(lifts) {
-        lift(r, by);
-    }
-    motion
 }

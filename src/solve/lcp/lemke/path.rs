@@ -90,12 +90,10 @@ pub fn follow(
     loop {
         let nothing =
             |ending| Ok(LemkeRun { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations });
-        if let Err(stop) = monitor.affords(Tableau::work(n)) {
-            return nothing(Ending::Stopped(stop));
-        }
-        let tableau = match Tableau::new(problem, monitor)? {
+        let tableau = match Tableau::new(problem, monitor) {
             Ok(tableau) => tableau,
-            Err(stop) => return nothing(Ending::Stopped(stop)),
+            Err(Ending::Failed(error)) => return Err(error),
+            Err(ending) => return nothing(ending),
         };
         if !tableau.is_finite() || problem.covering.contains(&0.0) {
             return nothing(Ending::Stalled("numbers overflow or underflow in the LCP"));

@@ -18,7 +18,8 @@ use crate::linalg::simd;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::BLOCK;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
+use crate::solve::result::Ending;
 
 /// The tableau in a basis.
 pub struct Tableau {
@@ -52,17 +53,10 @@ const LARGE: usize = 160;
 pub(super) const MEMORY: f64 = 100.0;
 
 impl Tableau {
-    /// Operations in whose time [`Self::new`] writes a tableau of `n` rows.
-    pub fn work(n: usize) -> f64 {
-        MEMORY * (n as f64).powi(2)
-    }
-
-    /// The tableau in which the `w` are basic; `Ok(Err)`: the time is up.
-    pub fn new(
-        problem: &Scaled<'_>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Result<Self, Stop>, Error> {
+    /// The tableau in which the `w` are basic. `Err`: there is no time or no memory for it.
+    pub fn new(problem: &Scaled<'_>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
         let n = problem.size();
+        monitor.affords(MEMORY * (n as f64).powi(2))?;
         // Columns begin one line of the cache further, on different cache sets even where `n` is a power of two.
         let stride = n.next_multiple_of(LINE) + LINE;
         let mut entries = Vec::new();
@@ -70,10 +64,8 @@ impl Tableau {
             .try_reserve_exact(stride * (n + 1))
             .map_err(|_| Error::OutOfMemory("the tableau of Lemke's method"))?;
         for j in 0..n {
-            if j % BLOCK == 0
-                && let Err(stop) = monitor.goes_on()
-            {
-                return Ok(Err(stop));
+            if j % BLOCK == 0 {
+                monitor.goes_on()?;
             }
             // New memory is cleared where it is written next.
             entries.resize(stride * (j + 1), 0.0);
@@ -82,7 +74,7 @@ impl Tableau {
         entries.extend_from_slice(&problem.covering);
         entries.resize(stride * (n + 1), 0.0);
         let delay = if n < LARGE { 1 } else { DELAY };
-        Ok(Ok(Tableau {
+        Ok(Tableau {
             size: n,
             stride,
             entries,
@@ -93,7 +85,7 @@ impl Tableau {
             values: problem.q.clone(),
             kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }),
             delay,
-        }))
+        })
     }
 
     /// True if all entries and values are.
