@@ -75,31 +75,3 @@ impl Clipper {
         std::mem::swap(&mut self.polygon, &mut self.left);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Clipper, Point, measure};
-
-    /// Squares shifted along both axes and turned: areas by elementary geometry.
-    #[test]
-    fn areas_of_common_parts() {
-        let clipper = &mut Clipper::default();
-        let mut common_part = |a: &[Point], b: &[Point]| clipper.common_part(a, b).to_vec();
-        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        for shift in [[0.25, 0.5], [-0.25, 0.125], [0.0, 0.0], [1.5, 0.0], [0.0, 1.0]] {
-            let other = square.map(|p| [p[0] + shift[0], p[1] + shift[1]]);
-            let side = |s: f64| (1.0 - s.abs()).max(0.0);
-            let exact = side(shift[0]) * side(shift[1]);
-            assert!((measure(&common_part(&square, &other)) - exact).abs() < 1e-16);
-        }
-        // A square on its corner with the half diagonal 3/4 around the centre: four corners cut off,
-        // right-angled with the height 1/4.
-        let turned = [[1.25, 0.5], [0.5, 1.25], [-0.25, 0.5], [0.5, -0.25]];
-        let exact = 2.0 * 0.75 * 0.75 - 4.0 * 0.0625;
-        assert!((measure(&common_part(&square, &turned)) - exact).abs() < 1e-15);
-        assert!((measure(&common_part(&turned, &square)) - exact).abs() < 1e-15);
-        let interval = common_part(&[[0.0, 0.0], [2.0, 0.0]], &[[1.5, 0.0], [3.0, 0.0]]);
-        assert_eq!(interval, [[1.5, 0.0], [2.0, 0.0]]);
-        assert!(common_part(&[[0.0, 0.0], [1.0, 0.0]], &[[1.0, 0.0], [3.0, 0.0]]).is_empty());
-    }
-}

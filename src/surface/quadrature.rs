@@ -72,32 +72,3 @@ fn triangle(n: usize) -> OnTriangle {
     }
     points
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{on_interval, on_triangle};
-
-    /// Integrals of powers: `1 / (k + 1)` on 0..1, `2 i! j! / (i + j + 2)!` on the unit triangle of
-    /// area one.
-    #[test]
-    fn powers_are_integrated() {
-        let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
-        for n in 1..=9 {
-            for k in 0..2 * n {
-                let sum: f64 =
-                    on_interval(n).iter().map(|([_, x, _], w)| w * x.powi(k as i32)).sum();
-                assert!((sum - 1.0 / (k as f64 + 1.0)).abs() < 1e-15, "{n}, {k}");
-            }
-            for i in 0..2 * n - 1 {
-                for j in 0..2 * n - 1 - i {
-                    let sum: f64 = on_triangle(n)
-                        .iter()
-                        .map(|([_, s, t], w)| w * s.powi(i as i32) * t.powi(j as i32))
-                        .sum();
-                    let exact = 2.0 * factorial(i) * factorial(j) / factorial(i + j + 2);
-                    assert!((sum - exact).abs() < 4e-15, "{n}, {i}, {j}");
-                }
-            }
-        }
-    }
-}

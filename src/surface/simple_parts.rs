@@ -76,31 +76,3 @@ fn quarters([a, b, c, d]: Simple) -> [Simple; 4] {
     let centre = middle(ab, cd);
     [[a, ab, centre, da], [ab, b, bc, centre], [centre, bc, c, cd], [da, centre, cd, d]]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Rule;
-
-    /// Moments `∫ x^i y^j` of an L of three unit squares, whose fan from a corner turns back: differences of those of
-    /// two rectangles, exact to the degree `2 n - 2`.
-    #[test]
-    fn moments_of_polygons_that_are_not_convex() {
-        let l = [[1.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]];
-        let (points, quartered) = (3, false);
-        for rule in [Rule { points, quartered }, Rule { points, quartered: true }] {
-            for (i, j) in (0..=4).flat_map(|i| (0..=4 - i).map(move |j| (i, j))) {
-                let mut sum = 0.0;
-                let done: Result<(), ()> = rule.on(&l, |[x, y], area| {
-                    sum += area * x.powi(i) * y.powi(j);
-                    Ok(())
-                });
-                assert!(done.is_ok());
-                let power = |from: f64, k: i32| (2.0_f64.powi(k) - from.powi(k)) / f64::from(k);
-                let exact =
-                    power(0.0, i + 1) * power(0.0, j + 1) - power(1.0, i + 1) * power(1.0, j + 1);
-                // Some fifty terms of the size of the sum.
-                assert!((sum - exact).abs() < 1e-14 * exact, "{i}, {j}, {quartered}");
-            }
-        }
-    }
-}

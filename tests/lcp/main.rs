@@ -8,4 +8,5 @@ mod copositive;
 mod enumeration;
 mod extremes;
 mod games;
+mod trail;
 mod worst_cases;

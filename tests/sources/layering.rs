@@ -202,8 +202,9 @@ fn the_search_follows_names_to_their_files() {
     // law/mod.rs passes `Contact` on without a use of its own, and law/pair_law.rs needs `Bound` itself.
     assert!(imports("law/pair_law.rs").contains("law/bound.rs"));
     assert!(!imports("law/mod.rs").contains("law/contact.rs"));
-    // `use crate::solve::newton::from_pieces`, which that `mod.rs` defines.
-    assert!(imports("solve/uniqueness/search.rs").contains("solve/newton/mod.rs"));
+    // `use crate::solve::solve`, which that `mod.rs` defines, and `from_pieces`, which `newton/mod.rs` passes on.
+    assert!(imports("model.rs").contains("solve/mod.rs"));
+    assert!(imports("solve/uniqueness/search.rs").contains("solve/newton/iteration.rs"));
     // `auto::solve(..)` after `use super::auto`.
     assert!(imports("solve/plan/distant_gaps.rs").contains("solve/plan/auto.rs"));
     // `pub use solve::Status` of lib.rs.
