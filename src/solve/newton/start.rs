@@ -13,22 +13,20 @@ use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
 use crate::solve::sweeps::sweep_pairs;
 
-/// How many rounds are made, and of how many sweeps: the fewest, and the most where there are many unknowns.
+/// How many rounds are made, and of how many sweeps: in the range, one for so many unknowns.
 struct Rounds {
     sweeps: RangeInclusive<usize>,
+    unknowns_per_sweep: usize,
     least: usize,
     most: usize,
 }
 
-const IN_SPACE: Rounds = Rounds { sweeps: 5..=10, least: 2, most: 20 };
-
-/// A round has a sweep for so many unknowns. A system of `n` unknowns costs as much as `n / 3` sweeps, so that a round
-/// costs about a hundredth of it.
-const UNKNOWNS_PER_SWEEP: usize = 300;
+/// A system of `n` unknowns costs as much as `n / 3` sweeps, so that a round costs about a hundredth of it.
+const IN_SPACE: Rounds = Rounds { sweeps: 5..=10, unknowns_per_sweep: 300, least: 2, most: 20 };
 
 /// In the plane a system costs as much as a few sweeps, as one factor serves many, and most fronts move by two sweeps
 /// between systems.
-const IN_PLANE: Rounds = Rounds { sweeps: 5..=5, least: 1, most: 2 };
+const IN_PLANE: Rounds = Rounds { sweeps: 5..=5, unknowns_per_sweep: 1, least: 1, most: 2 };
 
 /// Settled is a round that changes at most this part of the pieces, and leaves at most this residual `eta`.
 const CHANGING: f64 = 0.01;
@@ -59,7 +57,7 @@ pub(super) fn swept(
     let mut force = whole.force(&d);
     let rounds = if whole.dim == 2 { IN_PLANE } else { IN_SPACE };
     let (fewest, most) = rounds.sweeps.into_inner();
-    let sweeps = (whole.root.len() / UNKNOWNS_PER_SWEEP).clamp(fewest, most);
+    let sweeps = (whole.root.len() / rounds.unknowns_per_sweep).clamp(fewest, most);
     let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega, monitor: &mut Monitor<'_>| {
         for sweeps in [(sweeps - 1, omega), (1, 1.0)] {
             sweep_pairs(&whole.laws, whole.matrix, (&mut d[..], &mut force[..]), sweeps, monitor);
