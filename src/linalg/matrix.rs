@@ -248,3 +248,14 @@ pub fn required_length(name: &str, size: usize, ld: usize) -> Result<usize, Stri
 pub fn can_exist(size: usize) -> bool {
     size.checked_mul(size).is_some_and(|entries| entries <= isize::MAX as usize / size_of::<f64>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::can_exist;
+
+    /// 2^30 rows of as many doubles are 2^63 bytes, one more than the language has for an array.
+    #[test]
+    fn no_matrix_is_larger_than_half_of_all_addresses() {
+        assert!(can_exist((1 << 30) - 1) && !can_exist(1 << 30) && !can_exist(usize::MAX));
+    }
+}

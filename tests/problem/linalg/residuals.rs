@@ -1,7 +1,7 @@
-//! Residuals in twice the precision, and the largest matrix.
+//! Residuals in twice the precision.
 
 use super::ball::UNIT;
-use super::matrix::{Matrix, can_exist};
+use super::matrix::Matrix;
 use super::vector::sizes;
 use crate::common::quad::Quad;
 
@@ -28,12 +28,6 @@ fn residuals_that_cancel_are_right() {
             assert!(error <= bound, "{n}: row {i}: {error:e} > {bound:e}");
         }
     }
-}
-
-/// 2^30 rows of as many doubles are 2^63 bytes, one more than the language has for an array.
-#[test]
-fn no_matrix_is_larger_than_half_of_all_addresses() {
-    assert!(can_exist((1 << 30) - 1) && !can_exist(1 << 30) && !can_exist(usize::MAX));
 }
 
 /// Powers of two are no rounding: scaled data give scaled bits, from small numbers to large ones.
