@@ -115,8 +115,8 @@ impl<'h> Curve<'h> {
     }
 
     /// The next place of the curve: at most `step` along the tangent, at the first boundary, or at the end; with the
-    /// condition that it meets, and the length of the step along the tangent. Steps are halved until the corrector finds a place near by in which no other pair has left its
-    /// piece.
+    /// condition that it meets, and the length of the step along the tangent. Steps are halved until the corrector finds
+    /// a place near by in which no other pair has left its piece.
     fn advance(
         &mut self,
         local: &mut Local,

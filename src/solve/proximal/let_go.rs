@@ -133,7 +133,7 @@ impl Springs<'_> {
             let before = self.systems;
             let (next, d) = match self.next(s, &mut factor, monitor) {
                 // Rounding ends what has moved away as far as it can be seen.
-                Err(ending) if is_steady && !matches!(ending, Ending::Stopped(_)) => {
+                Err(ending) if is_steady && !ends_the_call(&ending) => {
                     return Err(self.runs_away(s));
                 }
                 found => found?,
@@ -176,9 +176,7 @@ impl Springs<'_> {
             let is_last = *factor < 2.0;
             match self.held(next, is_last, monitor) {
                 Ok(d) => return Ok((next, d)),
-                Err(ending) if is_last || matches!(ending, Ending::Stopped(_)) => {
-                    return Err(ending);
-                }
+                Err(ending) if is_last || ends_the_call(&ending) => return Err(ending),
                 Err(_) => *factor = factor.sqrt(),
             }
         }
@@ -252,6 +250,11 @@ impl Springs<'_> {
     fn length(&self, d: impl Fn(usize) -> f64) -> f64 {
         norm_of(self.units.iter().enumerate().map(|(i, unit)| unit.sqrt() * d(i)))
     }
+}
+
+/// True if nothing is tried after that: there is no time, or a function of the host has failed.
+fn ends_the_call(ending: &Ending) -> bool {
+    matches!(ending, Ending::Stopped(_) | Ending::Failed(_))
 }
 
 #[cfg(test)]
