@@ -1,7 +1,10 @@
-//! Vectors of the plane and of space, by nalgebra. In the plane the third component is zero.
+//! Vectors and matrices of the plane and of space, by nalgebra. In the plane the third component is zero.
 
 /// Three components.
 pub type Vector3 = nalgebra::Vector3<f64>;
+
+/// Three rows and columns.
+pub type Matrix3 = nalgebra::Matrix3<f64>;
 
 /// The vector with two or three components.
 pub fn vector(components: &[f64]) -> Vector3 {

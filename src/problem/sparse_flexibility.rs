@@ -96,10 +96,9 @@ impl SparseW {
         part
     }
 
-    /// The diagonal block from component `first` on, column-major.
-    pub(super) fn block(&self, first: usize) -> Vec<f64> {
-        let dim = self.dim;
-        let mut block = vec![0.0; dim * dim];
+    /// The diagonal block from component `first` on, column-major, in as many numbers as it has.
+    pub fn block(&self, first: usize) -> [f64; 9] {
+        let (dim, mut block) = (self.dim, [0.0; 9]);
         for j in 0..dim {
             let (rows, values) = column(&self.lower, first + j);
             for (&i, &value) in rows.iter().zip(values).take_while(|(i, _)| **i < first + dim) {

@@ -177,6 +177,33 @@ fn islands_with_full_rank_have_the_forces_of_the_dense_form() {
     }
 }
 
+/// A definite `W` has a solution with any friction (Brouwer's theorem on the thresholds, which stay bounded), and of a pair
+/// alone each is found, also where `W` ties its tangents to its normal so that it wedges.
+#[test]
+fn pairs_alone_are_solved_with_any_friction() {
+    let rng = &mut Rng::with_seed(7);
+    for dim in [2, 3] {
+        let cases: Vec<Case> = (0..150).map(|_| full(rng, dim, 1, 5.0)).collect();
+        let whole = together(&cases, &shuffled(rng, cases.len()));
+        // The judge of `solved` takes the whole at once: an error of one pair is not hidden by the loads of others if each
+        // is judged by itself too.
+        let solution = solved(&whole);
+        let n = whole.q.len();
+        for pair in 0..cases.len() {
+            let own = dim * pair..dim * (pair + 1);
+            let block = own.clone().flat_map(|j| own.clone().map(move |i| (i, j)));
+            let w = block.map(|(i, j)| whole.w[i + n * j]).collect();
+            let mut alone = Case::new(dim, w, whole.q[own.clone()].to_vec(), whole.mu[pair]);
+            alone.gap[0] = whole.gap[pair];
+            alone.slip0 = whole.slip0[(dim - 1) * pair..(dim - 1) * (pair + 1)].to_vec();
+            let force = &solution.certificate.force[own.clone()];
+            let error = alone.judged(&solution.d[own], force);
+            // As in `solved`: 1e-10 of norms, and the judge's unit is up to twice the library's.
+            assert!(error <= 1e-9, "pair {pair}: {error:e}");
+        }
+    }
+}
+
 #[test]
 fn islands_of_low_rank_have_the_displacements_of_the_dense_form() {
     let rng = &mut Rng::with_seed(2);

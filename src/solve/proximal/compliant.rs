@@ -78,7 +78,7 @@ const NEGATIVE: f64 = 1e-9;
 
 /// Least pivot of a `W` that is told from a singular one, beside the largest. Forces are then known to the tolerance over
 /// it.
-const DEFINITE: f64 = 1e-6;
+pub const DEFINITE: f64 = 1e-6;
 
 /// True if `W` is definite. `Err`: there is no time to see it.
 pub fn is_definite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {

@@ -95,13 +95,17 @@ pub fn on_itself(
     force: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Option<NewtonForces> {
-    let takes_newton = matches!(settings.method, Method::Auto | Method::Newton);
-    if !takes_newton || is_definite(contact.problem().relation(), monitor) != Ok(true) {
+    if !takes_newton(settings) || is_definite(contact.problem().relation(), monitor) != Ok(true) {
         return None;
     }
     let mut equations = OnFlexibility::new(contact, true);
     let begin = equations.coordinates(force);
     Some(equations.solve(begin, settings.tolerance, monitor))
+}
+
+/// True if Newton's method is chosen, or left to the default.
+pub fn takes_newton(settings: &Settings) -> bool {
+    matches!(settings.method, Method::Auto | Method::Newton)
 }
 
 /// Rounds from contact forces `force`, with the first springs; each `by_all_means` of the default method, or as far as

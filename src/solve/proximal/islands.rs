@@ -7,9 +7,9 @@
 
 use std::ops::Range;
 
-use super::flexibility::{self, on_itself};
+use super::flexibility::{self, on_itself, takes_newton};
 use super::growth::named;
-use super::on_flexibility::NewtonForces;
+use super::lone_pair::LonePair;
 use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -31,23 +31,25 @@ pub fn solve(
     let FlexibilityForm::Sparse(matrix) = problem.relation().form() else {
         return flexibility::solve(problem, (settings, solve), start, &|pair| pair, monitor);
     };
-    let whole = (problem, matrix.as_ref());
+    let contact = &Contact::new(problem);
+    let whole = (contact, matrix.as_ref());
     let found = in_turn(whole, (settings, solve), (start, false), monitor)?;
     let (is_certified, all) = (found.quick == 0, found.worst.is_none());
-    let solution = found.solution(problem, settings);
+    let solution = found.solution(contact, settings);
     if is_certified || !all || solution.status != Status::Stalled {
         return Ok(solution);
     }
-    Ok(in_turn(whole, (settings, solve), (start, true), monitor)?.solution(problem, settings))
+    Ok(in_turn(whole, (settings, solve), (start, true), monitor)?.solution(contact, settings))
 }
 
 /// Solves island by island, each with a certificate of its own if they are to be `certified`.
 fn in_turn(
-    (problem, matrix): (&FlexibilityProblem<'_>, &SparseW),
+    (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
     (settings, solve): (&Settings, Solve),
     (start, certified): (Option<&[f64]>, bool),
     monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
+    let problem = contact.problem();
     let (islands, dim) = (matrix.islands(), problem.dim());
     let several = islands.len() > 1;
     let mut own = settings.clone();
@@ -57,8 +59,13 @@ fn in_turn(
     }
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     let mut found = Found { force, islands: islands.len(), ..Found::default() };
+    let with_newton = !certified && takes_newton(settings);
+    let mut is_left = |pairs: &&[usize]| match pairs {
+        [pair] if with_newton => !found.add_alone((contact, matrix), *pair, own.tolerance, monitor),
+        _ => true,
+    };
+    let mut in_turn: Vec<&[usize]> = islands.each().filter(&mut is_left).collect();
     // The smallest first: what ends the call, most likely the largest, leaves the fewest.
-    let mut in_turn: Vec<&[usize]> = islands.each().collect();
     in_turn.sort_by_key(|pairs| pairs.len());
     // Data of all in that order: those of an island are a part.
     let order: Vec<usize> = in_turn.iter().copied().flatten().copied().collect();
@@ -77,7 +84,8 @@ fn in_turn(
             && newton.ending == Ending::Done
             && newton.point.eta <= own.tolerance
         {
-            found.add_quick(pairs, dim, &newton);
+            scatter(&newton.point.force, pairs, dim, &mut found.force);
+            found.add_quick(newton.systems);
             continue;
         }
         let begin = start.map(|_| &begin[..]);
@@ -169,19 +177,40 @@ impl Found {
         }
     }
 
-    /// Adds the forces of Newton's method.
-    fn add_quick(&mut self, pairs: &[usize], dim: usize, newton: &NewtonForces) {
-        scatter(&newton.point.force, pairs, dim, &mut self.force);
+    /// Solves a pair that is an island by Newton's method; false if that fails.
+    fn add_alone(
+        &mut self,
+        (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
+        pair: usize,
+        tolerance: f64,
+        monitor: &mut Monitor<'_>,
+    ) -> bool {
+        let (relation, dim) = (contact.problem().relation(), contact.dim());
+        let own = dim * pair..dim * (pair + 1);
+        let block = &matrix.block(own.start)[..dim * dim];
+        let arrays = (&relation.free[own.clone()], &relation.units()[own.clone()]);
+        let force = &mut self.force[own];
+        let found = LonePair::new(&contact.pairs()[pair], block, arrays)
+            .and_then(|alone| alone.solve(force, tolerance, monitor));
+        let Some((solved, systems)) = found else { return false };
+        force.copy_from_slice(&solved[..dim]);
+        self.add_quick(systems);
+        true
+    }
+
+    /// Counts an island that Newton's method has solved.
+    fn add_quick(&mut self, systems: u64) {
         (self.solved, self.quick) = (self.solved + 1, self.quick + 1);
-        self.factorisations += newton.systems;
+        self.factorisations += systems;
         // Islands come from the smallest to the largest.
         self.worst.take_if(|(_, worst)| worst.status == Status::Solved);
     }
 
     /// The result of the whole.
-    fn solution(self, problem: &FlexibilityProblem<'_>, settings: &Settings) -> Solution {
+    fn solution(self, contact: &Contact<'_, Flexibility<'_>>, settings: &Settings) -> Solution {
+        let problem = contact.problem();
         let d = problem.relation().relative(&self.force);
-        let certificate = measure(&Contact::new(problem), (&d, &[]), &self.force);
+        let certificate = measure(contact, (&d, &[]), &self.force);
         let ending = self.ending(settings, &certificate);
         let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         let method = if self.quick > 0 { Method::Newton } else { settings.method };

@@ -6,7 +6,7 @@
 //! | `rounds` | stand in series with the pairs, and are stretched anew in each round: the one loop of `dependent` and `flexibility` |
 //! | `dependent` | where rows depend on each other |
 //! | `flexibility`, `compliant`, `islands` | where the flexibility form may be singular |
-//! | `on_flexibility` | none: Newton's method on `W` itself |
+//! | `on_flexibility`, `lone_pair` | none: Newton's method on `W` itself, and on the block of a pair alone |
 //! | `drawn` | none: Newton's method from points that are drawn, for a few pairs |
 //! | `step`, `growth` | the problem of a round, and forces that grow without end |
 
@@ -17,6 +17,7 @@ mod flexibility;
 mod growth;
 mod islands;
 mod let_go;
+mod lone_pair;
 mod on_flexibility;
 mod rounds;
 mod step;

@@ -28,7 +28,7 @@ const DAMPING: [f64; 2] = [1e-13, 1e-2];
 
 /// Part of the tolerance that is aimed at: forces are known to less than `eta` where `W` hardly feels them, and the last
 /// system of Newton's method gives most of the digits.
-const ACCURATE: f64 = 1e-3;
+pub const ACCURATE: f64 = 1e-3;
 
 /// Forces and how they were found.
 pub struct NewtonForces {
@@ -182,7 +182,7 @@ fn add_products(matrix: &Matrix<'_>, forces: impl Iterator<Item = f64>, sum: &mu
 }
 
 /// Column `c` of `dP/dy`, and of `dd/dy`.
-fn column(law: &PairLaw, slopes: &Linearised, c: usize) -> (Vector, Vector) {
+pub fn column(law: &PairLaw, slopes: &Linearised, c: usize) -> (Vector, Vector) {
     let mut unit = [0.0; 3];
     unit[c] = 1.0;
     let moved = slopes.moved(&unit);
