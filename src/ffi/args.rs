@@ -2,6 +2,7 @@
 
 use libc::c_char;
 use std::ffi::CStr;
+use std::iter::repeat;
 use std::marker::PhantomData;
 use std::path::Path;
 
@@ -68,7 +69,8 @@ impl<'h> Arrays<'h> {
     /// is NULL, or has as many elements as the header demands: initialised ones, if the call reads them, which nobody
     /// writes to during the call; ones that nobody else accesses, if the call writes them.
     pub(super) unsafe fn of_call() -> Self {
-        Arrays { ranges: Vec::new(), in_reserve: IN_RESERVE, host: PhantomData }
+        // So many arrays have most calls.
+        Arrays { ranges: Vec::with_capacity(16), in_reserve: IN_RESERVE, host: PhantomData }
     }
 
     /// An array to read, which must not be NULL unless it has no elements.
@@ -241,6 +243,22 @@ impl<T: Copy> Output<T> {
             debug_assert_eq!(self.length, values.len());
             // SAFETY: made by `Arrays`: not NULL, aligned, so many elements that overlap none of ours.
             unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.pointer, self.length) }
+        }
+    }
+
+    /// Writes the results; `None`: `nothing` in each place.
+    pub(super) fn write_or(&self, values: Option<&Vec<T>>, nothing: T) {
+        match values {
+            Some(values) => self.write(values),
+            None => self.write_each(repeat(nothing)),
+        }
+    }
+
+    /// Writes results that are made one by one.
+    pub(super) fn write_each(&self, values: impl Iterator<Item = T>) {
+        for (i, value) in (0..self.length).zip(values) {
+            // SAFETY: as above.
+            unsafe { self.pointer.add(i).write(value) };
         }
     }
 

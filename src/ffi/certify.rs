@@ -65,7 +65,7 @@ pub unsafe extern "C" fn signorini_model_certify(
         if let Some(force) = force {
             force.write(&certificate.force);
         }
-        state.write(&state_codes(&certificate.states));
+        state.write_each(state_codes(&certificate.states));
         report.write(0, &SignoriniReport::of_certificate(status, &certificate));
         Ok(status)
     })

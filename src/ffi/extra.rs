@@ -1,5 +1,7 @@
 //! Results that not every call wants: motions where no equilibrium exists, and a second solution.
 
+use std::iter::repeat;
+
 use super::args::{Arrays, Output};
 use super::guard::Failure;
 use super::report::state_codes;
@@ -84,34 +86,31 @@ impl Extra {
     /// Writes the results of a case.
     pub(super) fn write(&self, case: usize, solution: &Solution) {
         let (n, pairs) = (solution.d.len(), solution.certificate.states.len());
-        let zeros = vec![0.0; n];
         let second = solution.second.as_deref();
-        let (radius_d, radius_force) = radii(solution);
+        let proof = match &solution.existence {
+            Existence::Proved(proof) => Some(proof),
+            Existence::NotAsked | Existence::NotProved => None,
+        };
+        // Distances of the proved solution from what the caller receives.
+        let about_d = proof.map(|proof| proof.radius_about(&solution.d));
+        let about_force = proof.map(|proof| proof.force_radius_about(&solution.certificate.force));
         let vectors = [
-            solution.recession.as_ref().unwrap_or(&zeros),
-            solution.escape.as_ref().map_or(&zeros, |escape| &escape.motion),
-            second.map_or(&zeros, |second| &second.d),
-            second.map_or(&zeros, |second| &second.certificate.force),
-            &radius_d,
-            &radius_force,
-            &solution.d_low,
+            (solution.recession.as_ref(), 0.0),
+            (solution.escape.as_ref().map(|escape| &escape.motion), 0.0),
+            (second.map(|second| &second.d), 0.0),
+            (second.map(|second| &second.certificate.force), 0.0),
+            (about_d.as_ref(), NO_RADIUS),
+            (about_force.as_ref(), NO_RADIUS),
+            (Some(&solution.d_low), 0.0),
         ];
-        for (output, values) in self.vectors.iter().zip(vectors) {
-            output.part(n * case, n).write(values);
+        for (output, (values, nothing)) in self.vectors.iter().zip(vectors) {
+            output.part(n * case, n).write_or(values, nothing);
         }
-        let states = second.map(|second| state_codes(&second.certificate.states));
-        let states = states.unwrap_or_else(|| vec![0; pairs]);
-        self.second_state.part(pairs * case, pairs).write(&states);
-    }
-}
-
-/// Distances of the proved solution from what the caller receives.
-fn radii(solution: &Solution) -> (Vec<f64>, Vec<f64>) {
-    match &solution.existence {
-        Existence::Proved(proof) => {
-            (proof.radius_about(&solution.d), proof.force_radius_about(&solution.certificate.force))
+        let states = self.second_state.part(pairs * case, pairs);
+        match second {
+            Some(second) => states.write_each(state_codes(&second.certificate.states)),
+            None => states.write_each(repeat(0)),
         }
-        _ => (vec![NO_RADIUS; solution.d.len()], vec![NO_RADIUS; solution.d.len()]),
     }
 }
 

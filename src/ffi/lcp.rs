@@ -66,7 +66,7 @@ pub unsafe extern "C" fn signorini_lcp_solve(
         }
         w.write(&solution.w);
         z.write(&solution.z);
-        y.write(solution.infeasible_by.as_deref().unwrap_or(&vec![0.0; n]));
+        y.write_or(solution.infeasible_by.as_ref(), 0.0);
         report.write(0, &SignoriniReport::of_lcp(status, &solution));
         Ok(status)
     })

@@ -58,7 +58,7 @@ impl Outputs {
         let certificate = &solution.certificate;
         self.d.part(n * case, n).write(&solution.d);
         self.force.part(n * case, n).write(&certificate.force);
-        self.state.part(pairs * case, pairs).write(&state_codes(&certificate.states));
+        self.state.part(pairs * case, pairs).write_each(state_codes(&certificate.states));
         self.reports.write(case, &SignoriniReport::of(status, solution));
         self.extra.write(case, solution);
         status

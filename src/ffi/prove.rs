@@ -50,11 +50,10 @@ pub unsafe extern "C" fn signorini_model_prove(
         let proof = model.prove(&case, d, states.as_deref()).map_err(|error| {
             Failure::from_error(error, |argument| given.position(argument, MEASURED))
         })?;
-        let nothing = vec![NO_RADIUS; d.len()];
-        let about_d = proof.as_ref().map_or(nothing.clone(), |proof| proof.radius_about(d));
-        force.write(proof.as_ref().map_or(&vec![0.0; d.len()], |proof| &proof.force));
-        radius_d.write(&about_d);
-        radius_force.write(proof.as_ref().map_or(&nothing, |proof| &proof.force_radius));
+        let proof = proof.as_ref();
+        force.write_or(proof.map(|proof| &proof.force), 0.0);
+        radius_d.write_or(proof.map(|proof| proof.radius_about(d)).as_ref(), NO_RADIUS);
+        radius_force.write_or(proof.map(|proof| &proof.force_radius), NO_RADIUS);
         if proof.is_none() {
             remember("no solution with these states is proved to exist next to d");
             return Ok(SIGNORINI_STATUS_NOT_PROVED);

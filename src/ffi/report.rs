@@ -239,8 +239,8 @@ fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (i32, i32) {
 }
 
 /// The states of the pairs as numbers.
-pub(super) fn state_codes(states: &[State]) -> Vec<i32> {
-    states.iter().map(|state| state.number()).collect()
+pub(super) fn state_codes(states: &[State]) -> impl Iterator<Item = i32> {
+    states.iter().map(|state| state.number())
 }
 
 /// Fills report with zeros; struct_size is sizeof(signorini_report).
