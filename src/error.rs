@@ -166,7 +166,8 @@ pub(crate) fn entry<const N: usize>(array: &str, indices: [impl fmt::Display; N]
 pub struct Message {
     /// As it was written.
     marked: String,
-    from_zero: String,
+    /// As it is told in C; `None` where it has no marks.
+    from_zero: Option<String>,
 }
 
 impl Message {
@@ -189,7 +190,8 @@ impl Message {
 impl<S: Into<String>> From<S> for Message {
     fn from(sentence: S) -> Self {
         let marked = sentence.into();
-        Message { from_zero: resolve(&marked, 0), marked }
+        let from_zero = marked.contains(BEGIN).then(|| resolve(&marked, 0));
+        Message { marked, from_zero }
     }
 }
 
@@ -197,7 +199,7 @@ impl Deref for Message {
     type Target = str;
 
     fn deref(&self) -> &str {
-        &self.from_zero
+        self.from_zero.as_ref().unwrap_or(&self.marked)
     }
 }
 
