@@ -245,10 +245,10 @@ impl<'e> Dense<'e> {
 
     /// The point with pairs stuck whose slips have turned back since the last system, if there are any.
     fn without_reversal(&self, point: &Point) -> Option<Point> {
-        let places = self.equations.laws.iter().zip(self.y.iter().zip(&point.y));
-        let y: Vec<Vector> =
-            places.map(|(law, (before, y))| law.without_reversal(before, *y)).collect();
-        (y != point.y).then(|| Point::new(self.equations, y))
+        let places = || self.equations.laws.iter().zip(self.y.iter().zip(&point.y));
+        let stuck = || places().map(|(law, (before, y))| law.without_reversal(before, *y));
+        let reverses = stuck().zip(&point.y).any(|(stuck, y)| stuck != *y);
+        reverses.then(|| Point::new(self.equations, stuck().collect()))
     }
 
     /// The point after some sweeps, fewer if the time is up.

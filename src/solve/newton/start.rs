@@ -64,7 +64,7 @@ pub(super) fn swept(
         }
         whole.eta(d, force)
     };
-    let (mut pieces, mut eta) = (Vec::new(), f64::INFINITY);
+    let (mut y, mut pieces, mut eta) = (Vec::new(), Vec::new(), f64::INFINITY);
     let mut omega = OVER_RELAXATION;
     for number in 1..=rounds.most {
         if number <= IN_SPACE.least || omega <= 1.0 {
@@ -80,7 +80,8 @@ pub(super) fn swept(
                 continue;
             }
         }
-        let now = whole.pieces(&whole.coordinates(&d, &force));
+        y = whole.coordinates(&d, &force);
+        let now = whole.pieces(&y);
         let changed = now.iter().zip(&pieces).filter(|(now, before)| now != before).count();
         let settled = changed as f64 <= CHANGING * now.len() as f64 && eta <= NEAR;
         pieces = now;
@@ -88,5 +89,5 @@ pub(super) fn swept(
             break;
         }
     }
-    whole.coordinates(&d, &force)
+    y
 }

@@ -31,8 +31,7 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solu
         (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned());
     }
     let effort = candidate.effort;
-    Solution {
-        d_low: candidate.low_part(),
+    let mut solution = Solution {
         recession,
         errors: candidate.errors.filter(|_| status == Status::Solved),
         orientation: if status == Status::Solved { candidate.orientation } else { 0 },
@@ -43,7 +42,11 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solu
         omega: effort.omega,
         damping: effort.damping,
         ..Solution::of(method, (status, message), candidate.d().to_vec(), certificate)
+    };
+    if !candidate.low().is_empty() {
+        solution.d_low.copy_from_slice(candidate.low());
     }
+    solution
 }
 
 /// Zero displacement, if it is the solution and the candidate is not, or if a displacement of the candidate is not

@@ -40,6 +40,9 @@ pub fn over_all<const DIM: usize>(
             },
         );
         let moved = steps.iter().filter(|step| **step != 0.0).count();
+        if moved == 0 {
+            continue;
+        }
         pieces(force, reading(moved * size), |begin, force| {
             let end = begin + force.len();
             let (from, to) = (block.end.clamp(begin, end), block.start.clamp(begin, end));
