@@ -11,6 +11,7 @@ mod candidates;
 mod descent;
 mod iteration;
 mod levelled;
+mod one_pair;
 mod polish;
 mod start;
 mod uncertain_pairs;
@@ -29,9 +30,10 @@ use crate::solve::result::{Call, Candidate, Ending};
 /// Solves a problem by Newton's method.
 pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let whole = Equations::of(contact);
     let in_space = contact.dim() > 2;
-    if !in_space && whole.remembered.is_some() {
+    let is_series = contact.problem().remembered().is_some();
+    if !in_space && is_series {
+        let whole = Equations::of(contact);
         let ended = iteration::solve_in_plane(&whole, call.start, settings.tolerance, monitor);
         return match ended {
             Some(ended) => ended.into_candidate(),
@@ -45,8 +47,9 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
         left -= usize::from(ended.ending == iteration::OPEN);
         ended
     };
-    let start = call.start.filter(|_| whole.remembered.is_some());
-    let again = start.and_then(|start| before::again(&whole, start, tolerance, monitor));
+    let start = call.start.filter(|_| is_series);
+    let again =
+        start.and_then(|start| before::again(&Equations::of(contact), start, tolerance, monitor));
     let near = match again {
         Some(found) if found.ending == Ending::Done => return found.into_candidate(),
         again => again.map(|found| found.d),
