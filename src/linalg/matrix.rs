@@ -162,23 +162,22 @@ impl<'a> Matrix<'a> {
     /// above 2e307 it is not a number. After S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point
     /// summation, part I*, SIAM J. Sci. Comput. 31 (2008) 189-224.
     pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64], terms: &[f64]) -> Vec<f64> {
-        let mut residual: Vec<f64> =
-            terms.iter().zip(b).map(|(t, b)| base_of_sum(t + b.abs())).collect();
-        pieces(&mut residual, self.reading(), |first, base| {
-            let rows = first..first + base.len();
-            let b = &b[rows.clone()];
-            let mut high: Vec<f64> = base.iter().zip(b).map(|(base, b)| base - b).collect();
-            let low = base.iter().zip(&high).zip(b).map(|((base, high), b)| (base - high) - b);
-            let mut low: Vec<f64> = low.collect();
+        let base = |i: usize| base_of_sum(terms[i] + b[i].abs());
+        let mut residual: Vec<f64> = (0..b.len()).map(|i| base(i) - b[i]).collect();
+        pieces(&mut residual, self.reading(), |first, high| {
+            let rows = first..first + high.len();
+            let lost = rows.clone().zip(&*high).map(|(i, high)| (base(i) - high) - b[i]);
+            let mut low: Vec<f64> = lost.collect();
             self.by_columns(
                 (0, x),
                 rows.clone(),
                 #[inline(always)]
-                |x, columns| add_twice((&mut high, &mut low), x, columns),
+                |x, columns| add_twice((&mut *high, &mut low), x, columns),
             );
-            self.add_rows_of_product((0, x_low), rows, &mut low);
-            let parts = high.iter().zip(&low);
-            base.iter_mut().zip(parts).for_each(|(base, (high, low))| *base = (high - *base) + low);
+            self.add_rows_of_product((0, x_low), rows.clone(), &mut low);
+            for (i, (high, low)) in rows.zip(high.iter_mut().zip(low)) {
+                *high = (*high - base(i)) + low;
+            }
         });
         residual
     }
