@@ -14,9 +14,8 @@ use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
 use crate::linalg::watched::GoesOn;
 
-/// A factorised system with a change.
-pub struct Amended<'e> {
-    equations: &'e Equations<'e>,
+/// A factorised system with a change. Its functions take the equations, whose matrix stays.
+pub struct Amended {
     /// The system that was factorised.
     pub base: System,
     /// The unknowns of columns of `J⁻¹ (K / k - 1)`.
@@ -48,29 +47,45 @@ struct Changed {
     rows: Vec<f64>,
 }
 
-impl<'e> Amended<'e> {
+impl Amended {
     /// A system of these equations that is factorised.
-    pub fn of(equations: &'e Equations<'e>, base: System) -> Self {
+    pub fn of(equations: &Equations<'_>, base: System) -> Self {
         let columns = Columns::none(equations.root.len(), base.size());
-        Amended { equations, base, columns, change: None }
+        Amended { base, columns, change: None }
     }
 
-    fn terms(&self, pairs: &[Linearised]) -> Vec<Term> {
-        terms(self.equations.dim, self.base.pairs(), pairs.iter().copied().enumerate())
+    /// The pairs on their pieces.
+    pub fn pairs(&self) -> &[Linearised] {
+        self.change.as_ref().map_or(self.base.pairs(), |change| &change.pairs)
+    }
+
+    fn terms(&self, dim: usize, pairs: &[Linearised]) -> Vec<Term> {
+        terms(dim, self.base.pairs(), pairs.iter().copied().enumerate())
     }
 
     /// Operations of [`Self::go_to`]: a solution for each column that is new, the pairs that change, and `M`. Those of a
     /// solution take twice the time that those of a factorisation take.
-    pub fn work(&self, pairs: &[Linearised]) -> f64 {
-        let terms = self.terms(pairs);
+    pub fn work(&self, dim: usize, pairs: &[Linearised]) -> f64 {
+        if self.pairs() == pairs {
+            return 0.0;
+        }
+        let terms = self.terms(dim, pairs);
         let lacking = self.columns.lacking(terms.iter().flat_map(Term::parts)).len() as f64;
         let (size, count) = (self.base.size() as f64, terms.len() as f64);
         4.0 * size * size * lacking + 2.0 * count * count * (size + count)
     }
 
     /// Goes to the system of pairs on their pieces; `None` if it is singular, or where `goes_on` says no.
-    pub fn go_to(&mut self, pairs: Vec<Linearised>, goes_on: GoesOn<'_>) -> Option<()> {
-        let (terms, equations) = (self.terms(&pairs), self.equations);
+    pub fn go_to(
+        &mut self,
+        equations: &Equations<'_>,
+        pairs: Vec<Linearised>,
+        goes_on: GoesOn<'_>,
+    ) -> Option<()> {
+        if self.pairs() == pairs {
+            return Some(());
+        }
+        let terms = self.terms(equations.dim, &pairs);
         self.change = None;
         if terms.is_empty() {
             return Some(());
@@ -79,7 +94,7 @@ impl<'e> Amended<'e> {
         self.columns.prepare(&terms, all, goes_on, |components| {
             self.base.unknowns(&equations.change_columns(components))
         })?;
-        let changed = self.changed(&terms);
+        let changed = self.changed(equations, &terms);
         let placed = |term: Term| {
             let at = changed.pairs.binary_search(&(term.first / equations.dim));
             (equations.dim * at.expect("the pair of a term changes"), term)
@@ -113,21 +128,21 @@ impl<'e> Amended<'e> {
     }
 
     /// The pairs of terms.
-    fn changed(&self, terms: &[Term]) -> Changed {
-        let dim = self.equations.dim;
+    fn changed(&self, equations: &Equations<'_>, terms: &[Term]) -> Changed {
+        let dim = equations.dim;
         let mut pairs: Vec<usize> = terms.iter().map(|term| term.first / dim).collect();
         pairs.dedup();
         let components = || pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1));
         let places: Vec<_> = components().map(|i| self.base.place(i)).collect();
         let held = components().zip(&places).filter(|(_, place)| place.is_none());
         let held: Vec<usize> = held.map(|(i, _)| i).collect();
-        let rows = self.base.rows(self.equations, &held);
+        let rows = self.base.rows(equations, &held);
         Changed { pairs, places, held, rows }
     }
 
     /// `J⁻¹ b`.
-    pub fn step(&mut self, b: &[f64]) -> Step {
-        let (equations, dim) = (self.equations, self.equations.dim);
+    pub fn step(&mut self, equations: &Equations<'_>, b: &[f64]) -> Step {
+        let dim = equations.dim;
         if !equations.are_linear() {
             let dy = self.base.solve(equations, b);
             return Step { dy, dd: Vec::new(), product: Vec::new() };
@@ -167,7 +182,7 @@ impl<'e> Amended<'e> {
     ///
     /// `M` of the variables that became basic is the Schur complement of the block, in the units of its columns. Solutions
     /// lose the digits by which the pivots of the factorised system are small: the product of both least pivots decides.
-    pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
+    pub fn definite(&self, root: &[f64], goes_on: GoesOn<'_>) -> Vec<bool> {
         let (first, none) = (self.base.least_pivot(), Vec::new());
         if first <= SUSPICIOUS_PIVOT {
             return none;
@@ -176,7 +191,7 @@ impl<'e> Amended<'e> {
         let before: Vec<bool> = basic(self.base.pairs());
         let Some(change) = &self.change else { return before };
         let now: Vec<bool> = basic(&change.pairs);
-        let (root, count) = (&self.equations.root, change.terms.len());
+        let count = change.terms.len();
         let became_basic: Vec<(usize, f64)> = (change.terms.iter().enumerate())
             .filter(|(_, (_, term))| now[term.first])
             .map(|(k, (_, term))| (k, root[term.first]))

@@ -26,7 +26,7 @@ const SAME: f64 = 1e-6;
 
 /// The end of a solution, for the next problem with the same matrix.
 struct Left {
-    system: System,
+    system: Amended,
     solution: Before,
 }
 
@@ -34,7 +34,7 @@ struct Left {
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
     /// The last system. In space it is one of a point, and serves others near by as long as steps with it converge.
-    last: Option<Amended<'e>>,
+    last: Option<Amended>,
     /// The solution before, if the last system is what it has left.
     before: Option<Before>,
     /// Factorisations so far.
@@ -45,13 +45,8 @@ impl<'e> Systems<'e> {
     /// None yet, or the one that the problem before with the same matrix has left.
     pub fn of(equations: &'e Equations<'e>) -> Self {
         let left = equations.remembered.and_then(Remembered::take::<Left>);
-        let left = left.filter(|left| left.system.fits(equations));
-        let (last, before) = match left {
-            Some(Left { system, solution }) => {
-                (Some(Amended::of(equations, system)), Some(solution))
-            }
-            None => (None, None),
-        };
+        let left = left.filter(|left| left.system.base.fits(equations));
+        let (last, before) = left.map(|Left { system, solution }| (system, solution)).unzip();
         Systems { equations, last, before, factorisations: 0 }
     }
 
@@ -65,8 +60,8 @@ impl<'e> Systems<'e> {
 
     /// Leaves the last system, and the solution, for the next problem with the same matrix.
     pub fn leave(self, solution: impl FnOnce() -> Before) {
-        if let (Some(remembered), Some(last)) = (self.equations.remembered, self.last) {
-            remembered.leave(Left { system: last.base, solution: solution() });
+        if let (Some(remembered), Some(system)) = (self.equations.remembered, self.last) {
+            remembered.leave(Left { system, solution: solution() });
         }
     }
 
@@ -75,9 +70,9 @@ impl<'e> Systems<'e> {
     fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
         let system = self.last.as_ref().filter(|_| self.are_of_pieces())?;
         if system.base.size() < SMALL {
-            return (system.base.pairs() == pairs).then_some(0.0);
+            return (system.pairs() == pairs).then_some(0.0);
         }
-        let work = system.work(pairs);
+        let work = system.work(self.equations.dim, pairs);
         (work <= System::work(self.equations, pairs)).then_some(work)
     }
 
@@ -101,7 +96,7 @@ impl<'e> Systems<'e> {
         let goes_on = &mut monitor.asking();
         if change.is_some()
             && let Some(system) = &mut self.last
-            && system.go_to(pairs.clone(), goes_on).is_some()
+            && system.go_to(equations, pairs.clone(), goes_on).is_some()
         {
             return Ok(());
         }
@@ -119,7 +114,7 @@ impl<'e> Systems<'e> {
     /// It overflows.
     pub fn step(&mut self, lack: &[f64]) -> Result<Step, Ending> {
         let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
-        let step = self.last.as_mut().map(|last| last.step(&b));
+        let step = self.last.as_mut().map(|last| last.step(self.equations, &b));
         step.filter(|step| step.dy.iter().all(|dy| dy.is_finite())).ok_or(Ending::Singular)
     }
 
@@ -130,7 +125,8 @@ impl<'e> Systems<'e> {
 
     /// As [`Amended::definite`] of the last system.
     pub fn definite(&self, goes_on: GoesOn<'_>) -> Vec<bool> {
-        self.last.as_ref().map_or_else(Vec::new, |last| last.definite(goes_on))
+        let root = &self.equations.root;
+        self.last.as_ref().map_or_else(Vec::new, |last| last.definite(root, goes_on))
     }
 
     /// True if the last system is one of pieces, on which its solution is exact.
