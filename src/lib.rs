@@ -140,7 +140,7 @@ pub use model::{LoadCase, Model, ModelKind, Series, Starts};
 pub use monitor::{Monitor, Progress, ProgressFn, Stop};
 pub use problem::{
     ContactData, ContactProblem, Dependence, Flexibility, FlexibilityData, FlexibilityProblem,
-    FrictionLaw, Lcp, Relation, Stiffness,
+    FrictionLaw, Lcp, Relation, Residual, Stiffness,
 };
 pub use settings::{Method, Search, Settings};
 pub use solve::{

@@ -116,19 +116,23 @@ pub fn each<T: Send>(
     each_while(items, multiplications, work, &mut || true);
 }
 
-/// Does `work` with pieces of `values`, each with the place of its first one. What a value becomes must not depend on
-/// the pieces: they are chosen by the number of threads.
-pub fn pieces<T: Send>(
-    values: &mut [T],
+/// Does `work` with pieces of `values`, of all arrays alike, each with the place of its first one. What a value becomes
+/// must not depend on the pieces: they are chosen by the number of threads.
+pub fn pieces<T: Send, const N: usize>(
+    values: [&mut [T]; N],
     multiplications: f64,
-    work: impl Fn(usize, &mut [T]) + Sync,
+    work: impl Fn(usize, [&mut [T]; N]) + Sync,
 ) {
     let threads = if multiplications < FEW { 1 } else { threads() };
     if threads == 1 {
         return work(0, values);
     }
-    let length = values.len().div_ceil(threads).max(1);
-    let pieces = values.chunks_mut(length).enumerate();
+    let length = values[0].len().div_ceil(threads).max(1);
+    let mut left = values.map(|values| values.chunks_mut(length));
+    let pieces = (0..threads).map_while(|k| {
+        let piece = left.each_mut().map(|left| left.next().unwrap_or_default());
+        (!piece[0].is_empty()).then_some((k, piece))
+    });
     each(pieces, multiplications, |(k, piece)| work(length * k, piece));
 }
 

@@ -4,6 +4,7 @@ use std::iter::repeat;
 
 use crate::law::{Contact, State, Violation, natural_sum};
 use crate::linalg::ball::UNIT;
+use crate::linalg::matrix::Residual;
 use crate::linalg::tolerances::{FEW_OPERATIONS, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::{NormSum, dot, largest_of, norm, norm_inf, sizes};
 use crate::problem::{ChangesUnits, ContactProblem, Relation, in_units};
@@ -108,7 +109,7 @@ pub fn certify_pair<R: Relation>(
 ) -> Certificate {
     let contact = Contact::new(problem);
     let residual = problem.relation().residual(d, force);
-    let terms = Terms::new(&contact, d);
+    let terms = Terms::new(&contact, d, None);
     measure_pair(&contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
 }
 
@@ -121,10 +122,13 @@ pub(crate) fn measure<R: Relation>(
     force: &[f64],
 ) -> Certificate {
     let relation = contact.problem().relation();
-    let terms = Terms::new(contact, d);
-    match relation.force(d, low, &terms.each) {
-        Some(force) => measure_pair(contact, (d, low), &terms, force, NOTHING),
+    match relation.force(d, low) {
+        Some(Residual { values, terms, base }) => {
+            let terms = Terms { base, ..Terms::new(contact, d, Some(terms)) };
+            measure_pair(contact, (d, low), &terms, values, NOTHING)
+        }
         None => {
+            let terms = Terms::new(contact, d, None);
             let residual = relation.residual(d, force);
             measure_pair(contact, (d, &[]), &terms, force.to_vec(), (&residual, &[]))
         }
@@ -159,7 +163,7 @@ pub(super) fn measure_pair<R: Relation>(
     let count = (d.len() + 2) as f64;
     let underflow = if d.iter().chain(low).all(|&d| d == 0.0) { 0.0 } else { count * LEAST };
     let all_terms = terms.inherent + terms.rest + load;
-    let products = (4.0 * UNIT * count).powi(2) * all_terms + underflow;
+    let products = (4.0 * UNIT * count).powi(2) * (terms.base + load) + underflow;
     let doubt = natural.doubt.root() + natural.sensitivity * products;
     // Of one component of the residual, of its norm and of the quotient.
     let upper = ratio((size + doubt) * (1.0 + FEW_OPERATIONS), scale);
@@ -274,19 +278,22 @@ pub(super) struct Terms {
     inherent: f64,
     /// Norm of those of the rest.
     rest: f64,
+    /// Norm of bounds on them, on top of which sums in twice the precision were taken.
+    base: f64,
 }
 
 impl Terms {
-    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64]) -> Self {
+    /// The terms of displacements, `all` of which may be known.
+    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64], all: Option<Vec<f64>>) -> Self {
         let relation = contact.problem().relation();
-        Self::of_all(contact, d, d, &|sizes| relation.magnitude(sizes))
+        Self::of_all(contact, d, (d, all), &|sizes| relation.magnitude(sizes))
     }
 
-    /// The terms of displacements `all` of which those of the pairs are `d`, with `|A| size` of all.
+    /// The terms of displacements `x` of which those of the pairs are `d`, with `|A| size`; `all` of them may be known.
     pub(super) fn of_all<R: Relation>(
         contact: &Contact<'_, R>,
         d: &[f64],
-        all: &[f64],
+        (x, all): (&[f64], Option<Vec<f64>>),
         magnitude: &dyn Fn(&[f64]) -> Vec<f64>,
     ) -> Self {
         let normals = d.iter().step_by(contact.dim());
@@ -294,22 +301,21 @@ impl Terms {
             largest_of(contact.pairs().iter().zip(normals).map(|(law, &d_n)| law.prescribed(d_n)));
         let limit = LEVER * prescribed;
         let part = |part: &dyn Fn(f64) -> f64| {
-            let sizes: Vec<f64> = all.iter().map(|d| part(d.abs())).collect();
+            let sizes: Vec<f64> = x.iter().map(|d| part(d.abs())).collect();
             magnitude(&sizes)
         };
-        if !(limit > 0.0) {
-            let each = part(&|size| size);
-            return Terms { inherent: 0.0, rest: norm(&each), each };
+        let are_inherent = limit > 0.0;
+        if !are_inherent || x.iter().all(|d| d.abs() <= limit) {
+            let each = all.unwrap_or_else(|| part(&|size| size));
+            let base = norm(&each);
+            let [inherent, rest] = if are_inherent { [base, 0.0] } else { [0.0, base] };
+            return Terms { each, inherent, rest, base };
         }
         let mut each = part(&|size| size.min(limit));
-        let inherent = norm(&each);
-        let mut rest = 0.0;
-        if !all.iter().all(|d| d.abs() <= limit) {
-            let above = part(&|size| size - size.min(limit));
-            each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
-            rest += norm(&above);
-        }
-        Terms { each, inherent, rest }
+        let above = part(&|size| size - size.min(limit));
+        let (inherent, rest) = (norm(&each), norm(&above));
+        each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
+        Terms { each, inherent, rest, base: inherent + rest }
     }
 }
 

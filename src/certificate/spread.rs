@@ -19,7 +19,7 @@ pub(crate) fn measure_spread(
 ) -> Certificate {
     let d = &x[bodies.inner()..];
     let (inner, raw) = residual.split_at(bodies.inner());
-    let terms = Terms::of_all(contact, d, x, &|size| bodies.magnitude(size));
+    let terms = Terms::of_all(contact, d, (x, None), &|size| bodies.magnitude(size));
     measure_pair(contact, (d, &[]), &terms, raw.to_vec(), (&[], inner))
 }
 

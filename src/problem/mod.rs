@@ -20,6 +20,7 @@ mod stiffness_operator;
 pub(crate) mod symmetric_matrix;
 mod units;
 
+pub use crate::linalg::matrix::Residual;
 pub(crate) use arguments::{
     OF_MATRIX, check_finite, check_finite_matrix, checked_dim, dense, unknowns,
 };

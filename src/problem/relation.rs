@@ -10,7 +10,7 @@
 //! others it does not, so that a candidate carries both.
 
 use super::remembered::Remembered;
-use crate::linalg::matrix::Matrix;
+use crate::linalg::matrix::{Matrix, Residual};
 use crate::linalg::vector::norm;
 
 /// A linear relation between `d` and `F`, from the host's data alone. Components are ordered pair by
@@ -27,9 +27,9 @@ pub trait Relation {
     /// The loads, in the unit of force: what drives the problem, and the size of forces.
     fn load(&self) -> &[f64];
 
-    /// The contact force that `d + low` determines, rounded once; `None` if it determines none. `low` is
-    /// empty, or what rounding to doubles has left out of `d`; `terms` is [`Self::magnitude`] of `|d|`.
-    fn force(&self, _d: &[f64], _low: &[f64], _terms: &[f64]) -> Option<Vec<f64>> {
+    /// The contact force that `d + low` determines, with [`Self::magnitude`] of `|d|`; `None` if it determines none. `low`
+    /// is empty, or what rounding to doubles has left out of `d`.
+    fn force(&self, _d: &[f64], _low: &[f64]) -> Option<Residual> {
         None
     }
 
@@ -100,6 +100,16 @@ impl<'a> Stiffness<'a> {
     pub(super) fn unit(&self, i: usize) -> f64 {
         self.matrix.unit(i, self.dim, self.largest)
     }
+
+    /// Adds to the terms of displacements those of components that nothing resists: such a one counts with its unit. What
+    /// it was condensed from has such stiffnesses, whose sums are zero.
+    fn add_unresisted(&self, d: &[f64], terms: &mut [f64]) {
+        for (j, terms) in terms.iter_mut().enumerate() {
+            if self.matrix.at(j, j) == 0.0 {
+                *terms += self.unit(j) * d[j].abs();
+            }
+        }
+    }
 }
 
 impl Relation for Stiffness<'_> {
@@ -116,8 +126,10 @@ impl Relation for Stiffness<'_> {
     }
 
     /// `K (d + low) - f`, in twice the precision and rounded once.
-    fn force(&self, d: &[f64], low: &[f64], terms: &[f64]) -> Option<Vec<f64>> {
-        Some(self.matrix.residual(d, low, self.load, terms))
+    fn force(&self, d: &[f64], low: &[f64]) -> Option<Residual> {
+        let mut force = self.matrix.residual_and_terms(d, low, self.load);
+        self.add_unresisted(d, &mut force.terms);
+        Some(force)
     }
 
     /// `K d - f - F`.
@@ -128,15 +140,9 @@ impl Relation for Stiffness<'_> {
         residual
     }
 
-    /// A component that nothing resists counts with its unit: what it was condensed from has such stiffnesses,
-    /// whose sums are zero.
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
         let mut sum = self.matrix.magnitude(size);
-        for (j, sum) in sum.iter_mut().enumerate() {
-            if self.matrix.at(j, j) == 0.0 {
-                *sum += self.unit(j) * size[j];
-            }
-        }
+        self.add_unresisted(size, &mut sum);
         sum
     }
 }

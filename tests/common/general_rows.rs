@@ -39,10 +39,6 @@ impl Relation for GeneralRows {
         &self.load
     }
 
-    fn force(&self, _: &[f64], _: &[f64], _: &[f64]) -> Option<Vec<f64>> {
-        None
-    }
-
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let n = self.size();
         // R = P - v, up to gaps and slips: v + S R = q.

@@ -43,7 +43,7 @@ pub fn over_all<const DIM: usize>(
         if moved == 0 {
             continue;
         }
-        pieces(force, reading(moved * size), |begin, force| {
+        pieces([force], reading(moved * size), |begin, [force]| {
             let end = begin + force.len();
             let (from, to) = (block.end.clamp(begin, end), block.start.clamp(begin, end));
             for rows in [begin..to, from..end] {
