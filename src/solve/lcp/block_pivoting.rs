@@ -123,9 +123,12 @@ fn solve(
 ) -> Pivoted {
     let equations = Equations::of_lcp(lcp);
     let mut systems = Systems::of(&equations);
-    let (mut basic, x, w) = begin(lcp, systems.before(start.as_deref()), start);
+    let before = systems.before(start.as_deref());
+    // The solution on the active set of the one before is nearly always the one: it is measured at once.
+    let mut near = before.is_some().then_some(measure);
+    let (mut basic, x, w) = begin(lcp, before, start);
     let units = lcp.matrix.units(1);
-    let mut iterate = Iterate { lcp, units, systems, w, x };
+    let mut iterate = Iterate { lcp, units, systems, w, x, is_accurate: None };
     let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
@@ -136,7 +139,7 @@ fn solve(
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        if let Err(ending) = iterate.solve(&basic, monitor) {
+        if let Err(ending) = iterate.solve(&basic, near.take(), monitor) {
             break ending;
         }
         let eta = lcp.eta(&iterate.x, &iterate.w);
@@ -200,34 +203,52 @@ struct Iterate<'l> {
     systems: Systems<'l>,
     x: Vec<f64>,
     w: Vec<f64>,
+    /// True if these are accurate enough; `None`: they are not measured.
+    is_accurate: Option<bool>,
 }
 
 impl Iterate<'_> {
-    /// Goes to the solution in which the basic variables have no `w`, and the others are at their bounds.
-    fn solve(&mut self, basic: &[bool], monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    /// Goes to the solution in which the basic variables have no `w`, and the others are at their bounds. What is `near` is
+    /// measured in the place of a product with the step.
+    fn solve(
+        &mut self,
+        basic: &[bool],
+        near: Option<&Measure<'_>>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), Ending> {
         let lcp = self.lcp;
-        let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
-        let pairs: Vec<Linearised> = basic.iter().zip(&self.units).map(pair).collect();
+        self.is_accurate = None;
         let mut step = vec![0.0; self.x.len()];
         for i in (0..step.len()).filter(|&i| !basic[i]) {
             step[i] = lcp.lower[i] - self.x[i];
             self.x[i] = lcp.lower[i];
         }
         lcp.matrix.add_product(&step, &mut self.w);
-        if !basic.contains(&true) {
-            return Ok(());
-        }
-        self.systems.go_to(pairs, monitor)?;
-        let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
-        let step = self.systems.step(&lack.collect::<Vec<f64>>())?;
-        // The solution tells `w` too; what it is worth is measured where it ends.
-        for (i, moved) in step.dy.iter().enumerate() {
-            match basic[i] {
-                true => (self.x[i], self.w[i]) = (self.x[i] + moved / self.units[i], 0.0),
-                false => self.w[i] -= moved,
+        if basic.contains(&true) {
+            let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
+            let pairs: Vec<Linearised> = basic.iter().zip(&self.units).map(pair).collect();
+            self.systems.go_to(pairs, monitor)?;
+            let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
+            step = self.systems.motion(&lack.collect::<Vec<f64>>())?;
+            self.x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
+            if near.is_none() {
+                lcp.matrix.add_product(&step, &mut self.w);
+                // What it is worth is measured where it ends.
+                let solved = self.w.iter_mut().zip(basic).filter(|(_, basic)| **basic);
+                solved.for_each(|(w, _)| *w = 0.0);
             }
         }
+        near.map(|measure| self.is_accurate(measure));
         Ok(())
+    }
+
+    /// True if the variables are accurate enough, whose `w` is measured then.
+    fn is_accurate(&mut self, measure: &Measure<'_>) -> bool {
+        *self.is_accurate.get_or_insert_with(|| {
+            let is_accurate;
+            (is_accurate, self.w) = measure(&self.x);
+            is_accurate
+        })
     }
 
     /// Brings the solution of the last system to the accuracy that `measure` asks for, if rounding has left less.
@@ -240,9 +261,7 @@ impl Iterate<'_> {
     ) -> Result<(), Stop> {
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
-            let is_accurate;
-            (is_accurate, self.w) = measure(&self.x);
-            if is_accurate {
+            if self.is_accurate(measure) {
                 break;
             }
             let eta = self.lcp.eta(&self.x, &self.w);
@@ -251,7 +270,7 @@ impl Iterate<'_> {
             }
             best = best.min(eta);
             let before = self.x.clone();
-            match self.solve(basic, monitor) {
+            match self.solve(basic, None, monitor) {
                 Ok(()) => {}
                 Err(Ending::Stopped(stop)) => return Err(stop),
                 Err(_) => {

@@ -83,25 +83,39 @@ pub fn solve(
     dense.descend(point, (tolerance, least_systems), monitor)
 }
 
-/// Solves the equations of a whole problem in the plane from displacements: from the solution on the pieces of the problem
-/// before with the same matrix, if they are its solution, and from sweeps. `None`: the sweeps lead beyond the largest
-/// number.
+/// Solves a whole problem in the plane, which has these equations: from the solution on the pieces of the problem before with
+/// the same matrix, if they are its solution, and from sweeps. The certificate, which reads `K` anyway, tells if they are.
+/// `None`: the sweeps lead beyond the largest number.
 pub fn solve_in_plane(
+    call: &Call<'_>,
     equations: &Equations<'_>,
-    start: Option<&[f64]>,
-    tolerance: f64,
     monitor: &mut Monitor<'_>,
-) -> Option<Ended> {
+) -> Option<Candidate> {
+    let (contact, tolerance) = (call.contact, call.settings.tolerance);
     let mut dense = Dense::of(equations);
-    let before = dense.systems.before(start).map(|before| Point::of_before(equations, before));
-    let again = before.and_then(|point| dense.from(point, monitor).ok());
-    if again.as_ref().is_some_and(|point| point.pieces == dense.pieces) {
-        return again.map(|point| dense.descend(point, (tolerance, 0), monitor));
+    let before = dense.systems.before(call.start);
+    let before = before.map(|before| Point::of_before(equations, before));
+    let again = before.and_then(|point| dense.again(point, monitor).ok());
+    if let Some(candidate) = &again {
+        let certificate = candidate.certificate(contact);
+        monitor.measured(certificate.eta);
+        let y = equations.coordinates(candidate.d(), &certificate.raw);
+        if equations.pieces(&y) == dense.pieces {
+            if !(certificate.eta <= descent::AIM * tolerance) {
+                let ended = dense.descend(Point::new(equations, y), (tolerance, 0), monitor);
+                return Some(ended.into_candidate());
+            }
+            let force = certificate.raw.clone();
+            let pieces = std::mem::take(&mut dense.pieces);
+            dense.systems.leave(|| equations.before((pieces, &y), candidate.d(), &force));
+            return again.map(|candidate| candidate.with_force(force));
+        }
     }
-    let start = again.as_ref().map(|point| &point.d[..]).or(start);
+    let start = again.as_ref().map(Candidate::d).or(call.start);
     let y = swept(equations, start, monitor);
     let is_finite = y.iter().flatten().all(|y| y.is_finite());
-    is_finite.then(|| dense.descend(Point::new(equations, y), (tolerance, 1), monitor))
+    is_finite
+        .then(|| dense.descend(Point::new(equations, y), (tolerance, 1), monitor).into_candidate())
 }
 
 /// Solves the equations in space by steps with the system that the problem before with the same matrix has left, whose
@@ -184,6 +198,19 @@ impl<'e> Dense<'e> {
         Ok(point.after(self.equations, &step, 1.0))
     }
 
+    /// The displacements of the solution on the pieces of a point of the plane, of which no forces are known yet. `Err`: as
+    /// [`Self::from`].
+    fn again(&mut self, point: Point, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
+        monitor.step()?;
+        self.go_to(&point, monitor)?;
+        let dd = self.systems.motion(&point.lack)?;
+        let d = point.d.iter().zip(dd).map(|(d, dd)| d + dd).collect();
+        let effort = Effort::of_systems(self.systems.factorisations);
+        let mut candidate = Candidate::new(d, Vec::new(), Ending::Done, effort);
+        candidate.orientation = self.orientation;
+        Ok(candidate)
+    }
+
     /// Goes on from a point to a tolerance, with so many systems at least.
     fn descend(
         mut self,
@@ -212,15 +239,20 @@ impl<'e> Dense<'e> {
         Ended { systems, orientation, ..Ended::at(point, outcome.ending) }
     }
 
-    /// The step from the pieces of a point.
-    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
+    /// Goes to the system of the pieces of a point.
+    fn go_to(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
         self.systems.go_to(pairs, monitor)?;
-        let step = self.systems.step(&point.lack)?;
         self.orientation = self.systems.orientation();
         self.pieces.clone_from(&point.pieces);
         self.y.clone_from(&point.y);
-        Ok(step)
+        Ok(())
+    }
+
+    /// The step from the pieces of a point.
+    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
+        self.go_to(point, monitor)?;
+        self.systems.step(&point.lack)
     }
 
     /// Steps with the system `A` of an earlier point, as long as `|H|` falls nearly as after one with a new system `J`.

@@ -34,11 +34,8 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let is_series = contact.problem().remembered().is_some();
     if !in_space && is_series {
         let whole = Equations::of(contact);
-        let ended = iteration::solve_in_plane(&whole, call.start, settings.tolerance, monitor);
-        return match ended {
-            Some(ended) => ended.into_candidate(),
-            None => Candidate::without_displacements(contact, candidates::OVERFLOW),
-        };
+        let overflown = || Candidate::without_displacements(contact, candidates::OVERFLOW);
+        return iteration::solve_in_plane(call, &whole, monitor).unwrap_or_else(overflown);
     }
     let (tolerance, mut left) = (settings.tolerance, PATIENCE);
     let core: &mut candidates::Core<'_> = &mut |equations, y, monitor| {

@@ -140,17 +140,11 @@ impl Amended {
         Changed { pairs, places, held, rows }
     }
 
-    /// `J⁻¹ b`.
-    pub fn step(&mut self, equations: &Equations<'_>, b: &[f64]) -> Step {
+    /// The displacements of `J⁻¹ b` where the law is linear on each piece.
+    pub fn motion(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
         let dim = equations.dim;
-        if !equations.are_linear() {
-            let dy = self.base.solve(equations, b);
-            return Step { dy, dd: Vec::new(), product: Vec::new() };
-        }
         let mut x = self.base.unknowns(b);
-        let Some(change) = &mut self.change else {
-            return equations.step(self.base.pairs(), b, self.base.displacements(&x));
-        };
+        let Some(change) = &mut self.change else { return self.base.displacements(&x) };
         let held = change.changed.held.iter().map(|&i| b[i]).collect();
         let mut y = change.changed.coordinates(&self.base, &x, held);
         let mut along: Vec<f64> =
@@ -169,7 +163,17 @@ impl Amended {
                 dd[i] = moved / equations.root[i].powi(2);
             }
         }
-        equations.step(&change.pairs, b, dd)
+        dd
+    }
+
+    /// `J⁻¹ b`.
+    pub fn step(&mut self, equations: &Equations<'_>, b: &[f64]) -> Step {
+        if !equations.are_linear() {
+            let dy = self.base.solve(equations, b);
+            return Step { dy, dd: Vec::new(), product: Vec::new() };
+        }
+        let dd = self.motion(equations, b);
+        equations.step(self.pairs(), b, dd)
     }
 
     /// Sign of `det J`.

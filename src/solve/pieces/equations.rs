@@ -142,6 +142,16 @@ impl<'a> Equations<'a> {
         (d, push)
     }
 
+    /// What a solution on pieces leaves, whose displacements `d` need `force`, from coordinates `y` that tell the forces of the
+    /// law: the coordinates that tell `d`, too.
+    pub fn before(&self, (pieces, y): (Vec<Piece>, &[Vector]), d: &[f64], force: &[f64]) -> Before {
+        let (_, push) = self.values(&pieces, y);
+        let y = self.coordinates(d, &push.iter().map(|push| -push).collect::<Vec<f64>>());
+        let (d, _) = self.values(&pieces, &y);
+        let product = force.iter().zip(&*self.load).map(|(force, f)| force + f).collect();
+        Before { pieces, d, product, y }
+    }
+
     /// Length of a vector of forces, each in the unit of its component.
     pub fn length(&self, force: &[f64]) -> f64 {
         norm_of(force.iter().zip(&self.root).map(|(force, root)| force / root))

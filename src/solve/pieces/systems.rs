@@ -7,7 +7,7 @@ use super::equations::{Equations, Step};
 use super::system::System;
 use crate::law::Linearised;
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::norm_inf;
+use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::linalg::watched::GoesOn;
 use crate::monitor::Monitor;
 use crate::problem::Remembered;
@@ -113,9 +113,17 @@ impl<'e> Systems<'e> {
     /// # Errors
     /// It overflows.
     pub fn step(&mut self, lack: &[f64]) -> Result<Step, Ending> {
-        let b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
-        let step = self.last.as_mut().map(|last| last.step(self.equations, &b));
+        let step = self.last.as_mut().map(|last| last.step(self.equations, &opposite(lack)));
         step.filter(|step| step.dy.iter().all(|dy| dy.is_finite())).ok_or(Ending::Singular)
+    }
+
+    /// The displacements of that step where the law is linear on each piece: `K` is not read for them.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn motion(&mut self, lack: &[f64]) -> Result<Vec<f64>, Ending> {
+        let dd = self.last.as_mut().map(|last| last.motion(self.equations, &opposite(lack)));
+        dd.filter(|dd| first_not_finite(dd).is_none()).ok_or(Ending::Singular)
     }
 
     /// Sign of the determinant of the last system.
@@ -133,4 +141,8 @@ impl<'e> Systems<'e> {
     pub fn are_of_pieces(&self) -> bool {
         self.last.is_some() && self.equations.are_linear()
     }
+}
+
+fn opposite(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| -value).collect()
 }
