@@ -120,6 +120,11 @@ impl<'a> ContactProblem<'a> {
         self.relation.matrix
     }
 
+    /// The largest diagonal entry of `K`.
+    pub(crate) fn largest_stiffness(&self) -> f64 {
+        self.relation.largest
+    }
+
     /// The problem of some of the pairs, with the block of `K` and the data that are theirs.
     pub(crate) fn on_part<'b>(
         &self,

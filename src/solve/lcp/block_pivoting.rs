@@ -127,8 +127,7 @@ fn solve(
     // The solution on the active set of the one before is nearly always the one: it is measured at once.
     let mut near = before.is_some().then_some(measure);
     let (mut basic, x, w) = begin(lcp, before, start);
-    let units = lcp.matrix.units(1);
-    let mut iterate = Iterate { lcp, units, systems, w, x, is_accurate: None };
+    let mut iterate = Iterate { lcp, root: &equations.root, systems, w, x, is_accurate: None };
     let mut best = (f64::INFINITY, iterate.x.clone(), iterate.w.clone());
     let mut exchange = Exchange::new(lcp);
     let last = monitor.iterations().saturating_add(most);
@@ -199,7 +198,8 @@ fn begin(
 /// An iterate with its `w`.
 struct Iterate<'l> {
     lcp: &'l BoundedLcp<'l>,
-    units: Vec<f64>,
+    /// Roots of the units of the variables.
+    root: &'l [f64],
     systems: Systems<'l>,
     x: Vec<f64>,
     w: Vec<f64>,
@@ -225,8 +225,8 @@ impl Iterate<'_> {
         }
         lcp.matrix.add_product(&step, &mut self.w);
         if basic.contains(&true) {
-            let pair = |(&basic, &unit): (&bool, &f64)| Linearised::of_variable(basic, unit);
-            let pairs: Vec<Linearised> = basic.iter().zip(&self.units).map(pair).collect();
+            let pair = |(&basic, root): (&bool, &f64)| Linearised::of_variable(basic, root * root);
+            let pairs: Vec<Linearised> = basic.iter().zip(self.root).map(pair).collect();
             self.systems.go_to(pairs, monitor)?;
             let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
             step = self.systems.motion(&lack.collect::<Vec<f64>>())?;

@@ -93,8 +93,7 @@ pub fn solve_in_plane(
 ) -> Option<Candidate> {
     let (contact, tolerance) = (call.contact, call.settings.tolerance);
     let mut dense = Dense::of(equations);
-    let before = dense.systems.before(call.start);
-    let before = before.map(|before| Point::of_before(equations, before));
+    let before = dense.systems.before(call.start).map(|left| Point::of_before(equations, left));
     let again = before.and_then(|point| dense.again(point, monitor).ok());
     if let Some(candidate) = &again {
         let certificate = candidate.certificate(contact);
@@ -261,9 +260,7 @@ impl<'e> Dense<'e> {
     /// lies along its vector would grow with each step. The steps end where `eta` is `enough`.
     fn chords(&mut self, mut point: Point, enough: f64, monitor: &mut Monitor<'_>) -> Point {
         let equations = self.equations;
-        let is_enough =
-            |point: &Point| enough > 0.0 && equations.eta(&point.d, &point.force) <= enough;
-        while !monitor.is_late() && !is_enough(&point) {
+        while !monitor.is_late() {
             let Ok(step) = self.systems.step(&point.lack) else { break };
             // What has been carried along has the rounding of all steps: the last digits are measured anew.
             let next = point.after(equations, &Step { product: Vec::new(), ..step }, 1.0);
@@ -271,6 +268,9 @@ impl<'e> Dense<'e> {
                 break;
             }
             point = next;
+            if enough > 0.0 && equations.eta(&point.d, &point.force) <= enough {
+                break;
+            }
         }
         point
     }

@@ -66,9 +66,6 @@ impl Amended {
     /// Operations of [`Self::go_to`]: a solution for each column that is new, the pairs that change, and `M`. Those of a
     /// solution take twice the time that those of a factorisation take.
     pub fn work(&self, dim: usize, pairs: &[Linearised]) -> f64 {
-        if self.pairs() == pairs {
-            return 0.0;
-        }
         let terms = self.terms(dim, pairs);
         let lacking = self.columns.lacking(terms.iter().flat_map(Term::parts)).len() as f64;
         let (size, count) = (self.base.size() as f64, terms.len() as f64);
@@ -82,9 +79,6 @@ impl Amended {
         pairs: Vec<Linearised>,
         goes_on: GoesOn<'_>,
     ) -> Option<()> {
-        if self.pairs() == pairs {
-            return Some(());
-        }
         let terms = self.terms(equations.dim, &pairs);
         self.change = None;
         if terms.is_empty() {

@@ -68,10 +68,8 @@ impl<'e> Systems<'e> {
     /// Operations of a change from the last system that was factorised to that of `pairs`, if it is of pieces and that
     /// takes fewer than a new factorisation.
     fn change_work(&self, pairs: &[Linearised]) -> Option<f64> {
-        let system = self.last.as_ref().filter(|_| self.are_of_pieces())?;
-        if system.base.size() < SMALL {
-            return (system.pairs() == pairs).then_some(0.0);
-        }
+        let system =
+            self.last.as_ref().filter(|last| self.are_of_pieces() && last.base.size() >= SMALL)?;
         let work = system.work(self.equations.dim, pairs);
         (work <= System::work(self.equations, pairs)).then_some(work)
     }
@@ -91,6 +89,9 @@ impl<'e> Systems<'e> {
         monitor: &mut Monitor<'_>,
     ) -> Result<(), Ending> {
         let equations = self.equations;
+        if self.are_of_pieces() && self.last.as_ref().is_some_and(|last| last.pairs() == pairs) {
+            return Ok(());
+        }
         let change = self.change_work(&pairs);
         monitor.affords(change.unwrap_or_else(|| System::work(equations, &pairs)))?;
         let goes_on = &mut monitor.asking();

@@ -58,7 +58,7 @@ fn without_force(contact: &Contact<'_>, force: &[f64]) -> Vec<usize> {
 fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64], unit: impl Fn(usize) -> f64) -> bool {
     let forces = norm_inf(contact.load_with_tension()).max(norm_inf(force));
     // No unit exceeds the largest diagonal entry: nearly all displacements are told by it.
-    if norm_inf(d) * contact.problem().stiffness().largest_diagonal() <= LARGE * forces {
+    if norm_inf(d) * contact.problem().largest_stiffness() <= LARGE * forces {
         return false;
     }
     let pairs = contact.each(d, force).enumerate();
