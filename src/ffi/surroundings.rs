@@ -16,12 +16,9 @@ use super::reserve::CallReserve;
 /// The host's surroundings.
 #[derive(Clone, Copy)]
 struct Host {
-    #[cfg(any(target_os = "linux", target_os = "macos"))]
-    environment: posix::Environment,
+    environment: Environment,
     #[cfg(any(target_os = "linux", target_os = "macos"))]
     cancellation: libc::c_int,
-    #[cfg(all(windows, target_arch = "x86_64"))]
-    registers: registers::Registers,
 }
 
 /// The outer call that a thread is in.
@@ -96,87 +93,60 @@ fn place_in_stack() -> usize {
 }
 
 #[cfg(any(target_os = "linux", target_os = "macos"))]
-mod posix {
-    use libc::c_int;
-
-    /// At least as large and as aligned as `fenv_t` of any Linux or macOS (32 bytes on x86).
-    #[repr(C, align(16))]
-    #[derive(Clone, Copy)]
-    pub struct Environment(pub [u8; 128]);
-
-    #[cfg(target_os = "linux")]
-    pub const DISABLE: c_int = 1;
-    #[cfg(target_os = "macos")]
-    pub const DISABLE: c_int = 0;
-
-    unsafe extern "C" {
-        pub fn pthread_setcancelstate(state: c_int, old: *mut c_int) -> c_int;
-    }
-
-    #[link(name = "m")]
-    unsafe extern "C" {
-        pub fn fegetenv(environment: *mut Environment) -> c_int;
-        pub fn fesetenv(environment: *const Environment) -> c_int;
-        #[cfg(target_os = "macos")]
-        #[link_name = "_FE_DFL_ENV"]
-        static FE_DFL_ENV: Environment;
-    }
-
-    /// `FE_DFL_ENV` of the C header.
-    pub fn default() -> *const Environment {
-        // glibc and musl define it as the address -1 on every processor but PowerPC.
-        #[cfg(target_os = "linux")]
-        let default = std::ptr::without_provenance(usize::MAX);
-        #[cfg(target_os = "macos")]
-        let default = &raw const FE_DFL_ENV;
-        default
-    }
+unsafe extern "C" {
+    fn pthread_setcancelstate(state: libc::c_int, old: *mut libc::c_int) -> libc::c_int;
 }
 
+/// `PTHREAD_CANCEL_DISABLE`.
 #[cfg(any(target_os = "linux", target_os = "macos"))]
+const DISABLE: libc::c_int = if cfg!(target_os = "linux") { 1 } else { 0 };
+
 impl Host {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
     fn change() -> Self {
-        let mut host =
-            Host { environment: posix::Environment([0; 128]), cancellation: posix::DISABLE };
-        // SAFETY: a state that the system knows, and a place for the old one; `environment` is large and aligned
-        // enough for fenv_t; the default environment is the one that Rust code must run in.
-        unsafe {
-            posix::pthread_setcancelstate(posix::DISABLE, &raw mut host.cancellation);
-            posix::fegetenv(&raw mut host.environment);
-            posix::fesetenv(posix::default());
-        }
-        host
+        let mut cancellation = DISABLE;
+        // SAFETY: a state that the system knows, and a place for the old one.
+        unsafe { pthread_setcancelstate(DISABLE, &raw mut cancellation) };
+        Host { environment: Environment::begin(), cancellation }
+    }
+
+    /// Windows has no cancellation.
+    #[cfg(not(any(target_os = "linux", target_os = "macos")))]
+    fn change() -> Self {
+        Host { environment: Environment::begin() }
     }
 
     /// Nothing is raised on the way back.
     fn restore(&self) {
-        let mut ours = posix::DISABLE;
-        // SAFETY: `environment` was filled by fegetenv on this thread; a state that the system has told.
+        self.environment.restore();
+        #[cfg(any(target_os = "linux", target_os = "macos"))]
+        // SAFETY: a state that the system has told, and a place for ours.
         unsafe {
-            posix::fesetenv(&raw const self.environment);
-            posix::pthread_setcancelstate(self.cancellation, &raw mut ours);
+            let mut ours = DISABLE;
+            pthread_setcancelstate(self.cancellation, &raw mut ours);
         }
     }
 }
 
-/// The registers of floating-point numbers themselves: the C libraries of Windows differ in what `fenv_t` is.
-#[cfg(all(windows, target_arch = "x86_64"))]
+/// The registers of floating-point numbers themselves: on Linux the functions of C take twice as long, a tenth of a small call,
+/// and on Windows C libraries differ in what `fenv_t` is.
+#[cfg(all(any(target_os = "linux", windows), target_arch = "x86_64"))]
 mod registers {
     use std::arch::asm;
 
     #[derive(Clone, Copy)]
-    pub struct Registers {
+    pub struct Environment {
         /// Control and status of SSE, by which Rust computes.
         sse: u32,
-        /// The environment of x87, which functions of MinGW's C library use.
+        /// The environment of x87, which functions of C libraries use.
         x87: [u32; 7],
     }
 
-    impl Registers {
+    impl Environment {
         /// All exceptions masked, to nearest, no flag, as a thread begins; returns what was there.
         pub fn begin() -> Self {
             static SSE: u32 = 0x1F80;
-            let mut old = Registers { sse: SSE, x87: [0; 7] };
+            let mut old = Environment { sse: SSE, x87: [0; 7] };
             // SAFETY: stores to places of their sizes, and loads a value without reserved bits.
             unsafe {
                 asm!("stmxcsr [{}]", in(reg) &raw mut old.sse, options(nostack));
@@ -195,23 +165,62 @@ mod registers {
         }
     }
 }
+#[cfg(all(any(target_os = "linux", windows), target_arch = "x86_64"))]
+use registers::Environment;
 
-/// Windows has no cancellation.
-#[cfg(all(windows, target_arch = "x86_64"))]
-impl Host {
-    fn change() -> Self {
-        Host { registers: registers::Registers::begin() }
+#[cfg(any(all(target_os = "linux", not(target_arch = "x86_64")), target_os = "macos"))]
+mod posix {
+    use libc::c_int;
+
+    /// At least as large and as aligned as `fenv_t` of any Linux or macOS (32 bytes on x86).
+    #[repr(C, align(16))]
+    #[derive(Clone, Copy)]
+    pub struct Environment([u8; 128]);
+
+    #[link(name = "m")]
+    unsafe extern "C" {
+        fn fegetenv(environment: *mut Environment) -> c_int;
+        fn fesetenv(environment: *const Environment) -> c_int;
+        #[cfg(target_os = "macos")]
+        #[link_name = "_FE_DFL_ENV"]
+        static FE_DFL_ENV: Environment;
     }
 
-    fn restore(&self) {
-        self.registers.restore();
+    impl Environment {
+        /// The environment that Rust code must run in; returns what was there.
+        pub fn begin() -> Self {
+            let mut old = Environment([0; 128]);
+            // glibc and musl define `FE_DFL_ENV` as the address -1 on every processor but PowerPC.
+            #[cfg(target_os = "linux")]
+            let default = std::ptr::without_provenance(usize::MAX);
+            #[cfg(target_os = "macos")]
+            let default = &raw const FE_DFL_ENV;
+            // SAFETY: `old` is large and aligned enough for fenv_t; the default of the C header.
+            unsafe {
+                fegetenv(&raw mut old);
+                fesetenv(default);
+            }
+            old
+        }
+
+        pub fn restore(&self) {
+            // SAFETY: filled by fegetenv on this thread.
+            unsafe { fesetenv(&raw const *self) };
+        }
     }
 }
+#[cfg(any(all(target_os = "linux", not(target_arch = "x86_64")), target_os = "macos"))]
+use posix::Environment;
+
+/// Other systems: nothing is known of the environment.
+#[cfg(not(any(target_os = "linux", target_os = "macos", all(windows, target_arch = "x86_64"))))]
+#[derive(Clone, Copy)]
+struct Environment;
 
 #[cfg(not(any(target_os = "linux", target_os = "macos", all(windows, target_arch = "x86_64"))))]
-impl Host {
-    fn change() -> Self {
-        Host {}
+impl Environment {
+    fn begin() -> Self {
+        Environment
     }
 
     fn restore(&self) {}
