@@ -29,34 +29,27 @@ const NEAR: f64 = 1e-3;
 /// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
 pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
-/// The candidate, refined if its residual is above the tolerance and that helps. Where it was done and there was no
-/// time to see, it is stopped.
-pub fn refine_to_tolerance(
-    call: &Call<'_>,
-    candidate: Candidate,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+/// Refines a candidate if its residual is above the tolerance and that helps. Where it was done and there was no time to
+/// see, it is stopped.
+pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate, monitor: &mut Monitor<'_>) {
     let (contact, settings) = (call.contact, call.settings);
     let old = candidate.certificate(contact);
     let is_finite = candidate.d().iter().all(|d| d.is_finite());
     let is_near = old.eta <= NEAR || contact.unknowns() <= SMALL;
     let is_stopped = matches!(candidate.ending, Ending::Stopped(_)) || contact.is_at_rest();
     if old.residual <= settings.tolerance || !is_finite || !is_near || is_stopped {
-        return candidate;
+        return;
     }
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
     let mut newton = Newton::on(&equations, monitor);
-    let refined = refine(contact, &candidate, aim, &mut newton);
+    let refined = refine(contact, candidate, aim, &mut newton);
     let new = refined.certificate(contact);
-    let helps = new.residual <= settings.tolerance && !new.runs_away();
-    match helps {
-        true => refined.ended(Ending::Done),
-        false if newton.is_stopped && candidate.ending == Ending::Done => {
-            candidate.ended(Ending::Stopped(Stop::TimeLimit))
-        }
-        false => candidate,
+    if new.residual <= settings.tolerance && !new.runs_away() {
+        *candidate = refined.ended(Ending::Done);
+    } else if newton.is_stopped && candidate.ending == Ending::Done {
+        candidate.ending = Ending::Stopped(Stop::TimeLimit);
     }
 }
 

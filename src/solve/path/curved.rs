@@ -9,7 +9,7 @@ use crate::monitor::Monitor;
 use crate::solve::newton::{Ended, newton_from, on_candidates, refine_to_tolerance};
 use crate::solve::pieces::{Equations, Point};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
-use crate::solve::rigid::{self, without_idle_motion};
+use crate::solve::rigid::{self, leave_idle_motion};
 
 /// Size of the perturbation of a start beside the loads: symmetric meshes have ties, and on a generic
 /// start no two pairs reach their boundaries at once.
@@ -99,10 +99,11 @@ fn is_solution(
     if d.len() != contact.unknowns() {
         return false;
     }
-    let candidate =
+    let mut candidate =
         Candidate::new(d.clone(), force.clone(), ended.ending.clone(), Effort::default());
-    let candidate = without_idle_motion(call, candidate, monitor);
-    refine_to_tolerance(call, candidate, monitor).is_settled(contact, settings.tolerance)
+    leave_idle_motion(call, &mut candidate, monitor);
+    refine_to_tolerance(call, &mut candidate, monitor);
+    candidate.is_settled(contact, settings.tolerance)
 }
 
 /// Follows one path from `start`; where it ends Newton's method brings the solution to its last digits.

@@ -35,7 +35,9 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
             tried.away = Some(motion.clone());
         }
         let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
-        let solution = certified(call, row.method, &candidate);
+        let is_solved = candidate.certificate(contact).holds(call.settings.tolerance);
+        let unsolved = (!is_solved).then(|| candidate.clone());
+        let solution = certified(call, row.method, candidate);
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         count(row.name, place, decided);
         match solution.status {
@@ -43,7 +45,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
                 tried.unstable = Some(solution);
             }
             _ if decided => return Ok(tried.ended(contact, solution, monitor)),
-            _ => tried.keep(contact, row, candidate),
+            _ => tried.keep(contact, row, unsolved.expect("a candidate that is no solution")),
         }
         tried.first.get_or_insert((row.method, why));
         if stopped || (tried.unstable.is_some() && row.method == Method::Lemke) {
@@ -54,7 +56,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
         return Ok(tried.ended(contact, solution, monitor));
     }
     let (method, candidate) = tried.best.take().expect("a plan has a method");
-    let solution = certified(call, method, &candidate);
+    let solution = certified(call, method, candidate);
     Ok(tried.ended(contact, solution, monitor))
 }
 

@@ -88,7 +88,7 @@ fn by_method(
     };
     let candidate = row.candidate(call, monitor)?;
     let candidate = candidate.expect("a method that can be chosen has a candidate");
-    Ok(certified(call, row.method, &candidate))
+    Ok(certified(call, row.method, candidate))
 }
 
 /// A solution without far obstacles, certified with them. `Err`: its displacements, if it is none.

@@ -5,7 +5,7 @@ use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Method;
 use crate::solve::result::{Call, Candidate, Ending};
-use crate::solve::rigid::{self, Balance, without_idle_motion};
+use crate::solve::rigid::{self, Balance, leave_idle_motion};
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
 /// A row of the table.
@@ -33,17 +33,18 @@ impl MethodRow {
         if contact.pairs().is_empty() {
             return Ok(Some(Candidate::without_displacements(contact, Ending::Done)));
         }
-        let Some(candidate) = (self.run)(call, monitor)? else { return Ok(None) };
-        let candidate = without_idle_motion(call, candidate, monitor);
-        let candidate = newton::refine_to_tolerance(call, candidate, monitor);
+        let mut found = (self.run)(call, monitor)?;
+        let Some(candidate) = &mut found else { return Ok(None) };
+        leave_idle_motion(call, candidate, monitor);
+        newton::refine_to_tolerance(call, candidate, monitor);
         // To a method a factorisation that was ended is that of a singular or indefinite matrix, and a question that was
         // ended is one without an answer.
         if matches!(candidate.ending, Ending::Singular | Ending::Cycle | Ending::Stalled(_))
             && let Some(stop) = monitor.stop()
         {
-            return Ok(Some(candidate.ended(Ending::Stopped(stop))));
+            candidate.ending = Ending::Stopped(stop);
         }
-        Ok(Some(candidate))
+        Ok(found)
     }
 }
 

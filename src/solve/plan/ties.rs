@@ -141,9 +141,10 @@ impl Others {
         let (d, low) = (self.displacements(&found.d), self.spread(&found.d_low));
         let force = contact.problem().force_of_parts(&d, &low);
         let ending = found.status.stop().map_or(Ending::Done, Ending::Stopped);
-        let at = Candidate::of_displacements(contact, d.clone(), ending).moved_to(d, low, force);
+        let at = Candidate::of_displacements(contact, d.clone(), ending);
+        let mut at = at.moved_to(d, low, force);
         // Where ties move bodies far, the loads of the other pairs are rounded beside their forces.
-        let at = refine_to_tolerance(call, at, monitor);
+        refine_to_tolerance(call, &mut at, monitor);
         let certificate = at.certificate(contact).clone().with_rounding(settings.tolerance);
         let holds = certificate.holds(settings.tolerance);
         let (status, message) = match found.status {

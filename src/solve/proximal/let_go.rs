@@ -212,8 +212,9 @@ impl Springs<'_> {
     /// Newton's method on `K` alone, from the last solution.
     fn without_springs(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
         let call = Call::new(self.contact, self.settings);
-        let candidate = self.newton(call, MOST_WITHOUT_SPRINGS, monitor)?;
-        Ok(newton::refine_to_tolerance(&call, candidate, monitor))
+        let mut candidate = self.newton(call, MOST_WITHOUT_SPRINGS, monitor)?;
+        newton::refine_to_tolerance(&call, &mut candidate, monitor);
+        Ok(candidate)
     }
 
     /// Newton's method on a problem with at most so many systems, from the last solution. `Err`: the call is

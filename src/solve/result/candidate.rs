@@ -92,6 +92,17 @@ impl Candidate {
         self.certificate.get_or_init(|| measure(contact, (&self.d, &self.low), &self.force))
     }
 
+    /// Takes the certificate out.
+    pub fn take_certificate(&mut self, contact: &Contact<'_>) -> Certificate {
+        self.certificate(contact);
+        self.certificate.take().expect("it is measured")
+    }
+
+    /// The displacements, and their low part, empty where nothing is known of it.
+    pub fn into_displacements(self) -> (Vec<f64>, Vec<f64>) {
+        (self.d, self.low)
+    }
+
     /// True if nothing is left to try: solved, proved to have no solution, or stopped.
     pub fn is_settled(&self, contact: &Contact<'_>, tolerance: f64) -> bool {
         match &self.ending {

@@ -9,11 +9,10 @@ use crate::linalg::vector::{first_not_finite, normalise};
 use crate::settings::Method;
 
 /// Turns the candidate of `method` into a result.
-pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solution {
+pub fn certified(call: &Call<'_>, method: Method, candidate: Candidate) -> Solution {
     let (contact, settings) = (call.contact, call.settings);
-    let at_rest = at_rest(call, candidate);
-    let candidate = at_rest.as_ref().unwrap_or(candidate);
-    let certificate = candidate.certificate(contact).clone().with_rounding(settings.tolerance);
+    let mut candidate = at_rest(call, &candidate).unwrap_or(candidate);
+    let certificate = candidate.take_certificate(contact).with_rounding(settings.tolerance);
     let mut recession = None;
     // A diverging iterate may itself be a recession direction.
     let motion = match &candidate.ending {
@@ -30,21 +29,23 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: &Candidate) -> Solu
         recession = Some(motion);
         (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned());
     }
-    let effort = candidate.effort;
+    let Candidate { effort, errors, orientation, .. } = candidate;
+    let definite = std::mem::take(&mut candidate.definite);
+    let (d, low) = candidate.into_displacements();
     let mut solution = Solution {
         recession,
-        errors: candidate.errors.filter(|_| status == Status::Solved),
-        orientation: if status == Status::Solved { candidate.orientation } else { 0 },
-        definite: candidate.definite.clone(),
+        errors: errors.filter(|_| status == Status::Solved),
+        orientation: if status == Status::Solved { orientation } else { 0 },
+        definite,
         factorisations: effort.factorisations,
         outer_iterations: effort.outer_iterations,
         refactorisations: effort.refactorisations,
         omega: effort.omega,
         damping: effort.damping,
-        ..Solution::of(method, (status, message), candidate.d().to_vec(), certificate)
+        ..Solution::of(method, (status, message), d, certificate)
     };
-    if !candidate.low().is_empty() {
-        solution.d_low.copy_from_slice(candidate.low());
+    if !low.is_empty() {
+        solution.d_low = low;
     }
     solution
 }

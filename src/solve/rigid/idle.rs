@@ -19,20 +19,16 @@ use crate::solve::result::{Call, Candidate};
 /// digits.
 const LARGE: f64 = 1e-10 / f64::EPSILON;
 
-/// The candidate without such a motion, if there is time to find it, and if it is a solution then. What moves with it is
+/// Takes such a motion from a candidate, if there is time to find it, and if it is a solution then. What moves with it is
 /// brought into equilibrium again, without the rounding of the way back.
-pub fn without_idle_motion(
-    call: &Call<'_>,
-    candidate: Candidate,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+pub fn leave_idle_motion(call: &Call<'_>, candidate: &mut Candidate, monitor: &mut Monitor<'_>) {
     let (contact, problem) = (call.contact, call.contact.problem());
     if !is_far(contact, candidate.d(), candidate.force(), |i| problem.unit(i)) {
-        return candidate;
+        return;
     }
     let others = without_force(contact, candidate.force());
     let block = FreeBlock::of_problem(problem, others, &mut monitor.asking());
-    let Some(block) = block else { return candidate };
+    let Some(block) = block else { return };
     let motion = RigidMotions::of_block(problem, &block).part(candidate.d());
     let part = contact.admissible_part(candidate.d(), &motion);
     let parts = candidate.d().iter().zip(&motion);
@@ -40,8 +36,9 @@ pub fn without_idle_motion(
     block.equilibrate(problem.load(), &mut d);
     let force = problem.force(&d);
     let moved = candidate.clone().moved_to(d, Vec::new(), force);
-    let is_solution = moved.certificate(contact).holds(call.settings.tolerance);
-    if is_solution { moved } else { candidate }
+    if moved.certificate(contact).holds(call.settings.tolerance) {
+        *candidate = moved;
+    }
 }
 
 /// The components of the pairs on which no force acts. The block of these resists a rigid motion of theirs alone no more

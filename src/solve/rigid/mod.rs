@@ -13,6 +13,6 @@ mod mechanism;
 mod motions;
 
 pub use equilibrium::{Balance, escape};
-pub use idle::{is_held_by_rounding, moves_freely, without_idle_motion};
+pub use idle::{is_held_by_rounding, leave_idle_motion, moves_freely};
 pub use mechanism::{describe, describe_run_away};
 pub use motions::RigidMotions;
