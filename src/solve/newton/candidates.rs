@@ -19,7 +19,6 @@ use std::sync::Arc;
 
 use super::before::Kept;
 use super::iteration::{Ended, OPEN};
-use super::one_pair;
 use super::start::swept;
 use crate::law::{FixedState, Vector};
 use crate::monitor::{Monitor, Stop};
@@ -59,8 +58,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         if !is_finite(&y) {
             return Candidate::without_displacements(contact, OVERFLOW);
         }
-        let alone = one_pair::solve(&whole, &y, monitor)
-            .unwrap_or_else(|| search.on(&whole, None, y, monitor));
+        let alone = search.on(&whole, None, y, monitor);
         found = Some(Ended { systems: spent + alone.systems, ..alone });
     }
     found.expect("the problem alone has ended").into_candidate()

@@ -23,6 +23,9 @@ pub const AIM: f64 = 0.1;
 /// Where `eta` is below and falls no further, rounding is reached.
 const NEAR_ROUNDING: f64 = 1e-6;
 
+/// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
+pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
+
 /// Equations on the normal map, as Newton's method sees them.
 pub trait NormalMap {
     /// Coordinates of all pairs, with the lack of equilibrium there.

@@ -20,7 +20,7 @@ const MOST_SYSTEMS: u64 = 20;
 
 /// First systems in the plane whose steps are taken whole. With none the bar on the plane with 513 pairs is left unsolved;
 /// with four all of its problems take nine systems at most.
-const FULL_STEPS: u64 = 4;
+pub const FULL_STEPS: u64 = 4;
 
 /// Part of `|H|` that a step with the system of an earlier point may leave. Such a step costs a solve, a small part
 /// of a factorisation.

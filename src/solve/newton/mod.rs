@@ -18,9 +18,11 @@ mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
 use descent::PATIENCE;
-pub use descent::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, solve as descend};
+pub use descent::{
+    AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend,
+};
 pub use iteration::{Ended, from_pieces, solve as newton_from};
-pub use polish::{FullyRefined, ROUNDING_OF_ETA, refine_fully, refine_to_tolerance};
+pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};
 
 use crate::monitor::Monitor;
@@ -29,6 +31,9 @@ use crate::solve::result::{Call, Candidate, Ending};
 
 /// Solves a problem by Newton's method.
 pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    if let Some(found) = one_pair::solve(call, monitor) {
+        return found;
+    }
     let (contact, settings) = (call.contact, call.settings);
     let in_space = contact.dim() > 2;
     let is_series = contact.problem().remembered().is_some();

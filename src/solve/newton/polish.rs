@@ -8,7 +8,7 @@
 //! `H = e - K k⁻¹ e`, because its push is `P = e - F`. Newton's step `dy` from there on the pieces of `y`
 //! moves `v` by `-k⁻¹ e + k⁻¹ (1 - dP/dy) dy`, a small number again, which double precision gives.
 
-use super::descent::{AIM, PATIENCE};
+use super::descent::{AIM, PATIENCE, ROUNDING_OF_ETA};
 use super::iteration::CHORD;
 use crate::certificate::eta_of;
 use crate::law::{Contact, Linearised, Piece};
@@ -25,9 +25,6 @@ const MOST_STEPS: usize = 30;
 /// Where `eta` is below a candidate is next to a solution. On few unknowns systems cost next to nothing,
 /// and rounding may hide a solution from a method altogether: there any candidate is refined.
 const NEAR: f64 = 1e-3;
-
-/// Rounding of `eta`: that of forces rounded once, a few times as the steps have no rounding in mind.
-pub const ROUNDING_OF_ETA: f64 = 4.0 * f64::EPSILON;
 
 /// Refines a candidate if its residual is above the tolerance and that helps. Where it was done and there was no time to
 /// see, it is stopped.
