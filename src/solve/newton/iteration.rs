@@ -6,7 +6,7 @@
 //! In the plane a solution is exact on its pieces. Where it is on others, a few sweeps carry the edge of a zone over many
 //! pairs, where Newton's step alone moves it by one.
 
-use super::descent::{self, Goal, NormalMap, PATIENCE};
+use super::descent::{self, Goal, NormalMap, PATIENCE, ROUNDING_OF_ETA};
 use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
@@ -336,7 +336,7 @@ impl NormalMap for Dense<'_> {
         }
         if self.is_exact {
             let anew = Point::new(self.equations, point.y);
-            return self.chords(anew, 0.0, monitor);
+            return self.chords(anew, ROUNDING_OF_ETA, monitor);
         }
         if part == 1.0 && !is_linear {
             return self.chords(point, 0.0, monitor);
