@@ -37,14 +37,17 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
         let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
         let is_solved = candidate.certificate(contact).holds(call.settings.tolerance);
         let unsolved = (!is_solved).then(|| candidate.clone());
-        let solution = certified(call, row.method, candidate);
+        let mut solution = certified(call, row.method, candidate);
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         count(row.name, place, decided);
         match solution.status {
             Status::Solved if solution.orientation < 0 && tried.unstable.is_none() => {
                 tried.unstable = Some(solution);
             }
-            _ if decided => return Ok(tried.ended(contact, solution, monitor)),
+            _ if decided => {
+                tried.end(contact, &mut solution, monitor);
+                return Ok(solution);
+            }
             _ => tried.keep(contact, row, unsolved.expect("a candidate that is no solution")),
         }
         tried.first.get_or_insert((row.method, why));
@@ -52,12 +55,12 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
             break;
         }
     }
-    if let Some(solution) = tried.unstable.take() {
-        return Ok(tried.ended(contact, solution, monitor));
-    }
-    let (method, candidate) = tried.best.take().expect("a plan has a method");
-    let solution = certified(call, method, candidate);
-    Ok(tried.ended(contact, solution, monitor))
+    let mut solution = tried.unstable.take().unwrap_or_else(|| {
+        let (method, candidate) = tried.best.take().expect("a plan has a method");
+        certified(call, method, candidate)
+    });
+    tried.end(contact, &mut solution, monitor);
+    Ok(solution)
 }
 
 fn fallback(candidate: &Candidate) -> Fallback {
@@ -97,23 +100,19 @@ impl Tried {
         }
     }
 
-    fn ended(
-        self,
-        contact: &Contact<'_>,
-        mut solution: Solution,
-        monitor: &mut Monitor<'_>,
-    ) -> Solution {
+    /// Tells in the last solution what came before it.
+    fn end(&mut self, contact: &Contact<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
         solution.fallback = self.first;
-        if let Some(motion) = self.away
+        if let Some(motion) = self.away.take()
             && solution.status == Status::Stalled
         {
-            rigid::describe_run_away(contact, &mut solution, motion);
+            rigid::describe_run_away(contact, solution, motion);
         }
         solution.factorisations = self.effort.factorisations;
         solution.refactorisations = self.effort.refactorisations;
-        if let Some(other) = self.unstable
+        if let Some(other) = self.unstable.take()
             && solution.status == Status::Solved
-            && uniqueness::are_two(contact, &solution, &other, monitor)
+            && uniqueness::are_two(contact, solution, &other, monitor)
         {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {
@@ -123,6 +122,5 @@ impl Tried {
                 orientation: other.orientation,
             }));
         }
-        solution
     }
 }
