@@ -133,16 +133,17 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let bytes = || memory(problem.unknowns()) + copies_of(problem);
     check(settings, bytes, ("d", problem, start))?;
-    let solution = in_units(problem, |units, problem| {
+    let found = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.length.all(start));
         let solution = solve_as_it_stands(problem, settings, start.as_deref(), monitor)?;
         Ok(to_host(solution, units, settings, problem))
     });
-    let mut solution =
-        solution.unwrap_or_else(|| solve_as_it_stands(problem, settings, start, monitor))?;
-    plan::say_remarks(problem, &mut solution);
-    solution.iterations = monitor.iterations();
-    Ok(solution)
+    let mut found = found.unwrap_or_else(|| solve_as_it_stands(problem, settings, start, monitor));
+    if let Ok(solution) = &mut found {
+        plan::say_remarks(problem, solution);
+        solution.iterations = monitor.iterations();
+    }
+    found
 }
 
 fn solve_as_it_stands(
@@ -158,32 +159,36 @@ fn solve_as_it_stands(
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
     let call = Call { contact: &contact, settings, start };
-    let Some(mut solution) = plan::without_ties(&call, solve_with_questions, monitor)? else {
+    let Some(mut found) = plan::without_ties(&call, solve_with_questions, monitor) else {
         return solve_with_questions(&call, monitor);
     };
-    if settings.proof {
-        uniqueness::prove(&call, &mut solution, monitor);
+    if settings.proof
+        && let Ok(solution) = &mut found
+    {
+        uniqueness::prove(&call, solution, monitor);
     }
-    Ok(solution)
+    found
 }
 
 /// Solves a problem without ties, and answers what the settings ask of its solution.
 fn solve_with_questions(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
     let (contact, settings) = (call.contact, call.settings);
-    let mut solution = plan::solve(call, monitor)?;
+    // A result is large: it stays where it is.
+    let mut found = plan::solve(call, monitor);
+    let Ok(solution) = &mut found else { return found };
     if solution.status == Status::NoEquilibrium {
         let (balance, solve) = (Balance::new(contact, monitor), Some(plan::solve as Solve));
-        rigid::describe(contact, &mut solution, balance, solve, monitor)?;
+        rigid::describe(contact, solution, balance, solve, monitor)?;
     }
-    uniqueness::by_orientation(contact, &mut solution, monitor);
+    uniqueness::by_orientation(contact, solution, monitor);
     if settings.search == Search::Others && !monitor.is_late() {
-        uniqueness::examine(call, &mut solution, monitor)?;
+        uniqueness::examine(call, solution, monitor)?;
     }
     if settings.proof {
-        uniqueness::prove(call, &mut solution, monitor);
+        uniqueness::prove(call, solution, monitor);
     }
-    plan::add_remarks(call, &mut solution, monitor);
-    Ok(solution)
+    plan::add_remarks(call, solution, monitor);
+    found
 }
 
 /// A result in the host's units; `problem` is in those of the result.

@@ -28,23 +28,25 @@ const ROUNDS: usize = 3;
 
 /// Solves by the method that is chosen, if it fits, or by the default; ties are taken out before.
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
-    if let Some(solution) = without_ties(call, solve, monitor)? {
-        return Ok(solution);
+    if let Some(found) = without_ties(call, solve, monitor) {
+        return found;
     }
     let row = chosen(call.contact, call.settings.method)?;
-    if let Some(solution) = without_obstacles(FAR, row, call, monitor)? {
-        return Ok(solution);
+    if let Some(found) = without_obstacles(FAR, row, call, monitor) {
+        return found;
     }
-    let solution = by_method(row, call, monitor)?;
-    if solution.status == Status::Stalled && row.is_none() {
+    let found = by_method(row, call, monitor);
+    if row.is_none()
+        && let Ok(Solution { status: Status::Stalled, .. }) = &found
+    {
         for far in FAR_OF_UNSOLVED {
-            let other = without_obstacles(far, row, call, monitor)?;
+            let other = without_obstacles(far, row, call, monitor).transpose()?;
             if let Some(other) = other.filter(|other| other.status == Status::Solved) {
                 return Ok(other);
             }
         }
     }
-    Ok(solution)
+    found
 }
 
 /// Solves without the obstacles that are `far` away; `None` if there are none, or if they matter.
@@ -53,28 +55,31 @@ fn without_obstacles(
     row: Option<&MethodRow>,
     call: &Call<'_>,
     monitor: &mut Monitor<'_>,
-) -> Result<Option<Solution>, Error> {
+) -> Option<Result<Solution, Error>> {
     let contact = call.contact;
     let mut moved = Vec::new();
     for _ in 0..ROUNDS {
         let Some(gaps) = gaps_within_reach(contact, &moved, far) else { break };
         let problem = contact.problem().with_gaps(&gaps);
         let near = Call { contact: &Contact::new(&problem), ..*call };
-        let solution = by_method(row, &near, monitor)?;
+        let solution = match by_method(row, &near, monitor) {
+            Ok(solution) => solution,
+            failed => return Some(failed),
+        };
         match solution.status {
             Status::Solved => match on_all_obstacles(call, solution) {
-                Ok(solution) => return Ok(Some(solution)),
+                Ok(solution) => return Some(Ok(solution)),
                 Err(refused) => moved = refused,
             },
             // The motion may end at an obstacle that was left out.
             Status::NoEquilibrium | Status::Stalled => break,
             Status::IterationLimit | Status::TimeLimit | Status::Cancelled => {
                 let certificate = measure(contact, (&solution.d, &solution.d_low), &[]);
-                return Ok(Some(Solution { certificate, ..solution }));
+                return Some(Ok(Solution { certificate, ..solution }));
             }
         }
     }
-    Ok(None)
+    None
 }
 
 /// Solves by the method of a row, or by the default.

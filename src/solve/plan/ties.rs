@@ -32,10 +32,12 @@ pub fn without_ties(
     call: &Call<'_>,
     solve: Solve,
     monitor: &mut Monitor<'_>,
-) -> Result<Option<Solution>, Error> {
-    if call.contact.ties().next().is_none() {
-        return Ok(None);
-    }
+) -> Option<Result<Solution, Error>> {
+    call.contact.ties().next().map(|_| on_others(call, solve, monitor))
+}
+
+/// Solves a problem of which pairs are tied.
+fn on_others(call: &Call<'_>, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
     let whole = call.contact.problem();
     let others = Others::of(call.contact);
     let settings = Settings { proof: false, ..call.settings.clone() };
@@ -50,7 +52,7 @@ pub fn without_ties(
     if let Some(remembered) = whole.remembered() {
         remembered.leave(others.block);
     }
-    Ok(Some(solution))
+    Ok(solution)
 }
 
 /// The block of the pairs that are not tied.
