@@ -47,7 +47,8 @@ const MEASURABLE: f64 = 1e7;
 
 /// Counts iterations, reports progress and ends a call whose budget is used up.
 pub struct Monitor<'a> {
-    begin: Instant,
+    /// When the call began; `None` where nobody asks.
+    begin: Option<Instant>,
     time_limit: f64,
     memory_limit: u64,
     /// `true` if a sparse matrix is to be left uncondensed.
@@ -70,7 +71,7 @@ impl<'a> Monitor<'a> {
     /// A monitor with the budgets of `settings`; the clock starts now.
     pub fn new(settings: &Settings, progress: Option<&'a mut ProgressFn<'a>>) -> Self {
         Monitor {
-            begin: Instant::now(),
+            begin: (settings.time_limit != 0.0 || progress.is_some()).then(Instant::now),
             time_limit: if settings.time_limit == 0.0 {
                 f64::INFINITY
             } else {
@@ -135,8 +136,7 @@ impl<'a> Monitor<'a> {
         if self.is_cancelled {
             return Err(Stop::Cancelled);
         }
-        let timed = self.time_limit.is_finite() || self.progress.is_some();
-        let elapsed = if timed { self.begin.elapsed().as_secs_f64() } else { 0.0 };
+        let elapsed = self.elapsed();
         if elapsed > self.time_limit {
             return Err(Stop::TimeLimit);
         }
@@ -180,8 +180,12 @@ impl<'a> Monitor<'a> {
     }
 
     fn is_late_after(&self, seconds: f64) -> bool {
-        let is_late = || self.begin.elapsed().as_secs_f64() + seconds > self.time_limit;
-        self.is_cancelled || (self.time_limit.is_finite() && is_late())
+        self.is_cancelled || self.elapsed() + seconds > self.time_limit
+    }
+
+    /// Seconds since the call began, 0 where nobody asks.
+    fn elapsed(&self) -> f64 {
+        self.begin.map_or(0.0, |begin| begin.elapsed().as_secs_f64())
     }
 
     /// Why the call is to end, if it is; the callback is not asked.
@@ -221,7 +225,7 @@ impl<'a> Monitor<'a> {
     }
 
     fn does(&mut self, work: &str, share: f64, memory: u64) -> Result<(), Error> {
-        let elapsed = self.begin.elapsed().as_secs_f64();
+        let elapsed = self.elapsed();
         let done = 100.0 * share;
         if elapsed > self.time_limit {
             let message = format!(
