@@ -336,13 +336,11 @@ impl NormalMap for Dense<'_> {
         }
         if self.is_exact {
             let anew = Point::new(self.equations, point.y);
-            return self.chords(anew, ROUNDING_OF_ETA, monitor);
-        }
-        if part == 1.0 && !is_linear {
-            return self.chords(point, 0.0, monitor);
+            let is_enough = self.eta(&anew) <= ROUNDING_OF_ETA;
+            return if is_enough { anew } else { self.chords(anew, ROUNDING_OF_ETA, monitor) };
         }
         if !is_linear {
-            return point;
+            return if part == 1.0 { self.chords(point, 0.0, monitor) } else { point };
         }
         let swept = self.swept(&point, SWEEPS, monitor);
         if swept.merit < point.merit { swept } else { point }
