@@ -1,7 +1,7 @@
 //! Loops over contiguous columns, compiled for several instruction sets and chosen at run time.
 //!
-//! [`vectorised`] compiles its closure a second time for AVX2 and runs that version where the
-//! processor has it; the loops are written for the vectoriser and inlined there. They multiply, then
+//! [`vectorised`] compiles its closure once more for AVX2 and for AVX-512, and runs the widest version that the
+//! processor has; the loops are written for the vectoriser and inlined there. They multiply, then
 //! add, unfused, and where they fuse they say so by `mul_add`, which rounds once everywhere: the result does
 //! not depend on the instruction set. Processors without a fused operation compute it slowly.
 
