@@ -124,7 +124,7 @@ pub(crate) fn measure<R: Relation>(
     let relation = contact.problem().relation();
     match relation.force(d, low) {
         Some(Residual { values, terms, base }) => {
-            let terms = Terms { base, ..Terms::new(contact, d, Some(terms)) };
+            let terms = Terms::new(contact, d, Some((terms, base)));
             measure_pair(contact, (d, low), &terms, values, NOTHING)
         }
         None => {
@@ -162,7 +162,6 @@ pub(super) fn measure_pair<R: Relation>(
     // The error of products in twice the precision, `Matrix::residual`, and what products of the smallest numbers lose.
     let count = (d.len() + 2) as f64;
     let underflow = if d.iter().chain(low).all(|&d| d == 0.0) { 0.0 } else { count * LEAST };
-    let all_terms = terms.inherent + terms.rest + load;
     let products = (4.0 * UNIT * count).powi(2) * (terms.base + load) + underflow;
     let doubt = natural.doubt.root() + natural.sensitivity * products;
     // Of one component of the residual, of its norm and of the quotient.
@@ -184,7 +183,7 @@ pub(super) fn measure_pair<R: Relation>(
         rounding,
         hidden,
         is_resisted,
-        underflows: underflow > UNIT * scale.max(all_terms),
+        underflows: underflow > UNIT * scale.max(norm(&terms.each)),
         penetration,
         tension,
         cone_excess,
@@ -283,17 +282,18 @@ pub(super) struct Terms {
 }
 
 impl Terms {
-    /// The terms of displacements, `all` of which may be known.
-    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64], all: Option<Vec<f64>>) -> Self {
+    /// The terms of displacements; `all` of them may be known, with the norm of their bounds.
+    fn new<R: Relation>(contact: &Contact<'_, R>, d: &[f64], all: Option<(Vec<f64>, f64)>) -> Self {
         let relation = contact.problem().relation();
         Self::of_all(contact, d, (d, all), &|sizes| relation.magnitude(sizes))
     }
 
-    /// The terms of displacements `x` of which those of the pairs are `d`, with `|A| size`; `all` of them may be known.
+    /// The terms of displacements `x` of which those of the pairs are `d`, with `|A| size`; `all` of them may be known, with
+    /// the norm of their bounds.
     pub(super) fn of_all<R: Relation>(
         contact: &Contact<'_, R>,
         d: &[f64],
-        (x, all): (&[f64], Option<Vec<f64>>),
+        (x, all): (&[f64], Option<(Vec<f64>, f64)>),
         magnitude: &dyn Fn(&[f64]) -> Vec<f64>,
     ) -> Self {
         let normals = d.iter().step_by(contact.dim());
@@ -304,18 +304,20 @@ impl Terms {
             let sizes: Vec<f64> = x.iter().map(|d| part(d.abs())).collect();
             magnitude(&sizes)
         };
-        let are_inherent = limit > 0.0;
-        if !are_inherent || x.iter().all(|d| d.abs() <= limit) {
-            let each = all.unwrap_or_else(|| part(&|size| size));
+        let (each, base) = all.unwrap_or_else(|| {
+            let each = part(&|size| size);
             let base = norm(&each);
-            let [inherent, rest] = if are_inherent { [base, 0.0] } else { [0.0, base] };
-            return Terms { each, inherent, rest, base };
-        }
-        let mut each = part(&|size| size.min(limit));
-        let above = part(&|size| size - size.min(limit));
-        let (inherent, rest) = (norm(&each), norm(&above));
-        each.iter_mut().zip(&above).for_each(|(each, above)| *each += above);
-        Terms { each, inherent, rest, base: inherent + rest }
+            (each, base)
+        });
+        let is_within = x.iter().all(|d| d.abs() <= limit);
+        let [inherent, rest] = match (limit > 0.0, is_within) {
+            (false, _) => [0.0, norm(&each)],
+            (true, true) => [norm(&each), 0.0],
+            (true, false) => {
+                [norm(&part(&|size| size.min(limit))), norm(&part(&|size| (size - limit).max(0.0)))]
+            }
+        };
+        Terms { each, inherent, rest, base }
     }
 }
 

@@ -79,18 +79,21 @@ fn a_free_body_is_pushed_aside_without_a_force() {
 
 /// A body without loads that turns about a point: the motion `(1, L)` costs the energy `e` alone, stiffness
 /// `[[L² + e, -L], [-L, 1]]`, with `e / L²` of 2e-13, rounding of a host. An interference of 1 at the first pair
-/// turns it by `L` at the other. This is free up to lever arms of 1000; beyond, rounding might drive it.
+/// turns it by `L` at the other. This is free up to lever arms of 1000; beyond, rounding might drive it. The unit of
+/// lengths does not matter: lengths that are longer by a power of two are rounded alike.
 #[test]
 fn a_body_turns_about_a_gap_by_its_lever_arm() {
-    for exponent in 4..=18 {
-        let lever = power(exponent);
+    for (exponent, unit) in (4..=18).flat_map(|exponent| [-40, 0, 40].map(|unit| (exponent, unit)))
+    {
+        let (lever, length) = (power(exponent), power(unit));
         let e = power(2 * exponent - 42);
         let k = [lever * lever + e, -lever, 1.0];
-        let case = coupled(k, [0.0; 2], [-1.0, f64::INFINITY]);
-        let certificate = normal(&case, [-1.0, -lever]);
-        assert_eq!(certificate.force, [-e, 0.0, 0.0, 0.0]);
+        let case = coupled(k, [0.0; 2], [-length, f64::INFINITY]);
+        let certificate = normal(&case, [-length, -lever * length]);
+        assert_eq!(certificate.force, [-e * length, 0.0, 0.0, 0.0]);
         let expected = lever < 1000.0;
-        assert_eq!(certificate.holds(1e-10), expected, "2^{exponent}: {certificate:?}");
+        let place = format!("2^{exponent}, lengths of 2^{unit}: {certificate:?}");
+        assert_eq!(certificate.holds(1e-10), expected, "{place}");
     }
 }
 
