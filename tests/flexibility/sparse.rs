@@ -185,8 +185,7 @@ fn pairs_alone_are_solved_with_any_friction() {
     for dim in [2, 3] {
         let cases: Vec<Case> = (0..150).map(|_| full(rng, dim, 1, 5.0)).collect();
         let whole = together(&cases, &shuffled(rng, cases.len()));
-        // The judge of `solved` takes the whole at once: an error of one pair is not hidden by the loads of others if each
-        // is judged by itself too.
+        // `solved` judges the whole, whose loads may hide the error of one pair: each is judged by itself too.
         let solution = solved(&whole);
         let n = whole.q.len();
         for pair in 0..cases.len() {
