@@ -8,7 +8,8 @@
 
 use std::sync::Arc;
 
-use super::iteration::{self, Ended};
+use super::ended::Ended;
+use super::iteration;
 use crate::linalg::elimination::Elimination;
 use crate::monitor::Monitor;
 use crate::problem::Remembered;

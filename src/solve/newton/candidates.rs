@@ -18,7 +18,8 @@
 use std::sync::Arc;
 
 use super::before::Kept;
-use super::iteration::{Ended, OPEN};
+use super::ended::Ended;
+use super::iteration::OPEN;
 use super::start::swept;
 use crate::law::{FixedState, Vector};
 use crate::monitor::{Monitor, Stop};

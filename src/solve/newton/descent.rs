@@ -60,6 +60,18 @@ pub trait NormalMap {
         part: f64,
     ) -> Result<Self::Point, Ending>;
 
+    /// The point after a step that is taken whole, and the part of the step that has been taken.
+    ///
+    /// # Errors
+    /// As [`Self::moved`].
+    fn whole_step(
+        &mut self,
+        point: &Self::Point,
+        step: &Self::Step,
+    ) -> Result<(Self::Point, f64), Ending> {
+        self.moved(point, step, 1.0).map(|next| (next, 1.0))
+    }
+
     /// The point from which the next system is made, after this part of `step` has led to `point`.
     fn after(
         &mut self,
@@ -125,7 +137,7 @@ pub fn solve<M: NormalMap>(
             Err(ending) => break ending,
         };
         let moved = match systems <= goal.full_steps {
-            true => map.moved(&point, &step, 1.0).map(|next| (next, 1.0)),
+            true => map.whole_step(&point, &step),
             false => line_search(map, &point, &step),
         };
         let (next, part) = match moved {

@@ -7,6 +7,7 @@
 //! pairs, where Newton's step alone moves it by one.
 
 use super::descent::{self, Goal, NormalMap, PATIENCE, ROUNDING_OF_ETA};
+use super::ended::Ended;
 use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::monitor::Monitor;
@@ -26,6 +27,14 @@ pub const FULL_STEPS: u64 = 4;
 /// of a factorisation.
 pub const CHORD: f64 = 0.1;
 
+/// A first step in the plane is taken so many times if it leaves more than [`CHORD`] of `|H|` and opens more than this part
+/// of the pairs. Newton's step moves the edge of a zone only by the length over which the forces behind it decay, on a
+/// beam its thickness; a pair that opens too early penetrates, and closes by the next step. On 100 problems of `peers.sh` that
+/// saves 12 % of the systems, on beams 39 %, and it costs 5 % on the hard families of the plane. Where few pairs open it saves
+/// nothing.
+const FIRST_STEP: f64 = 2.0;
+const OPENING: f64 = 0.05;
+
 /// Sweeps between a solution in the plane and its pieces: two carry a zone's edge far enough.
 const SWEEPS: usize = 2;
 
@@ -39,36 +48,6 @@ pub const FAR: Ending = Ending::Stalled("the solution is far from the one before
 
 /// Where so many pairs are open that they are eliminated first.
 pub const OPEN: Ending = Ending::Stalled("many pairs are open");
-
-/// How Newton's method ended, and where.
-pub struct Ended {
-    /// Displacements, the force that they need, and their coordinates, of the best point.
-    pub d: Vec<f64>,
-    pub force: Vec<f64>,
-    pub y: Vec<Vector>,
-    /// `Done` if `eta` is below the tolerance or at its rounding.
-    pub ending: Ending,
-    /// Linear systems that were factorised.
-    pub systems: u64,
-    /// Sign of the determinant of the last system, 0 if there was none.
-    pub orientation: i8,
-}
-
-impl Ended {
-    /// An end at a point, without a system.
-    pub fn at(point: Point, ending: Ending) -> Self {
-        let Point { y, d, force, .. } = point;
-        Ended { d, force, y, ending, systems: 0, orientation: 0 }
-    }
-
-    /// The candidate of equations that are a whole problem's.
-    pub fn into_candidate(self) -> Candidate {
-        let effort = Effort::of_systems(self.systems);
-        let mut candidate = Candidate::new(self.d, self.force, self.ending, effort);
-        candidate.orientation = self.orientation;
-        candidate
-    }
-}
 
 /// Solves the equations from the coordinates `y`; until most pairs are open if it `leaves_open` pairs to an elimination.
 pub fn solve(
@@ -171,6 +150,8 @@ struct Dense<'e> {
     /// True if the search ends with [`OPEN`], and the point where it has.
     leaves_open: bool,
     left: Option<Point>,
+    /// True before the first step from where sweeps have led.
+    begins: bool,
 }
 
 impl<'e> Dense<'e> {
@@ -187,6 +168,7 @@ impl<'e> Dense<'e> {
             swept_to,
             leaves_open: false,
             left: None,
+            begins: false,
         }
     }
 
@@ -221,6 +203,7 @@ impl<'e> Dense<'e> {
         let full_steps = if self.equations.dim == 2 { FULL_STEPS } else { 0 };
         let mut goal = Goal { tolerance, least_systems, most_systems: MOST_SYSTEMS, full_steps };
         self.is_exact = point.pieces == self.pieces;
+        self.begins = least_systems > 0;
         let mut outcome = descent::solve(&mut self, point, goal, monitor);
         // A solution in the plane is exact once it is on the pieces of its system, however rough the tolerance is.
         goal.least_systems = 1;
@@ -311,8 +294,7 @@ impl NormalMap for Dense<'_> {
         {
             return Err(Ending::Cycle);
         }
-        let closed = || point.pieces.iter().filter(|piece| piece.closed).count();
-        if self.leaves_open && many_are_open(closed(), point.y.len()) {
+        if self.leaves_open && many_are_open(closed(point), point.y.len()) {
             self.left = Some(point.clone());
             return Err(OPEN);
         }
@@ -321,6 +303,17 @@ impl NormalMap for Dense<'_> {
 
     fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Ending> {
         Ok(point.after(self.equations, step, part))
+    }
+
+    fn whole_step(&mut self, point: &Point, step: &Step) -> Result<(Point, f64), Ending> {
+        let next = point.after(self.equations, step, 1.0);
+        let opened = closed(point).saturating_sub(closed(&next)) as f64;
+        let is_far = next.merit > CHORD * point.merit;
+        let opens_many = opened > OPENING * point.pieces.len() as f64;
+        Ok(match std::mem::take(&mut self.begins) && is_far && opens_many {
+            true => (point.after(self.equations, step, FIRST_STEP), FIRST_STEP),
+            false => (next, 1.0),
+        })
     }
 
     fn after(&mut self, point: Point, _step: Step, part: f64, monitor: &mut Monitor<'_>) -> Point {
@@ -345,4 +338,9 @@ impl NormalMap for Dense<'_> {
         let swept = self.swept(&point, SWEEPS, monitor);
         if swept.merit < point.merit { swept } else { point }
     }
+}
+
+/// Number of closed pairs.
+fn closed(point: &Point) -> usize {
+    point.pieces.iter().filter(|piece| piece.closed).count()
 }

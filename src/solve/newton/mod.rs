@@ -9,6 +9,7 @@
 mod before;
 mod candidates;
 mod descent;
+mod ended;
 mod iteration;
 mod levelled;
 mod one_pair;
@@ -21,7 +22,8 @@ use descent::PATIENCE;
 pub use descent::{
     AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend,
 };
-pub use iteration::{Ended, from_pieces, solve as newton_from};
+pub use ended::Ended;
+pub use iteration::{from_pieces, solve as newton_from};
 pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::{PartOutcome, solve_part};
 
