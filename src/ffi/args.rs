@@ -1,58 +1,73 @@
 //! From pointers to slices: NULL, alignment, size and overlap are checked before any access.
 
 use libc::c_char;
+use std::cell::RefCell;
 use std::ffi::CStr;
+use std::fmt::{self, Display};
 use std::iter::repeat;
-use std::marker::PhantomData;
 use std::path::Path;
 
-use super::guard::{self, Failure};
-use crate::error::Argument;
+use super::guard::{self, Failure, Outcome, refused};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::required_length;
 use crate::problem;
 
 /// Runs the body of an entry, a closure of the arrays of the call.
 macro_rules! c_entry {
-    ($body:expr) => {
+    (|$arrays:ident| $body:block) => {
         $crate::ffi::guard::call(|| {
             // SAFETY: the header's contract.
-            let mut arrays = unsafe { $crate::ffi::args::Arrays::of_call() };
-            $crate::ffi::args::on_arrays(&mut arrays, $body)
+            let $arrays = &unsafe { $crate::ffi::args::Arrays::of_call() };
+            $body
         })
     };
 }
 pub(super) use c_entry;
 
-/// Runs the body of an entry: the arrays' lifetime is that of what is made of them.
-pub(super) fn on_arrays<'h>(
-    arrays: &mut Arrays<'h>,
-    body: impl FnOnce(&mut Arrays<'h>) -> Result<i32, Failure>,
-) -> Result<i32, Failure> {
-    body(arrays)
-}
-
 /// Bytes that a call holds in reserve for each byte of the host's arrays: of copies, of what is
-/// worked out from them, and of holes between. For matrices, of which a call makes few copies, it
-/// counts by itself.
+/// worked out from them, and of holes between.
 const IN_RESERVE: usize = 16;
 
 /// The memory of the host that a call may use, of which outputs overlap nothing.
 ///
-/// It stands for the contract of the header, which [`Self::of_call`] asks for once: its methods turn the pointers of
-/// the call into slices, structures and outputs after checking them.
-pub(super) struct Arrays<'h> {
-    ranges: Vec<Range>,
-    /// Bytes held in reserve for each byte of what is noted next.
-    in_reserve: usize,
-    host: PhantomData<&'h [u8]>,
+/// It stands for the contract of the header, which [`Self::of_call`] asks for once: the methods of [`At`] turn the
+/// pointers of the call into slices, structures and outputs after checking them.
+pub(super) struct Arrays {
+    ranges: RefCell<Vec<Range>>,
 }
 
 struct Range {
-    position: i32,
-    name: &'static str,
+    place: Place,
     begin: usize,
     end: usize,
     written: bool,
+}
+
+/// Where something stands among the arguments of a call, with its name in sentences.
+#[derive(Clone, Copy)]
+struct Place {
+    position: i32,
+    name: &'static str,
+    /// The field of the structure of this name; empty: it is the argument itself.
+    field: &'static str,
+}
+
+impl Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.field {
+            "" => f.write_str(self.name),
+            field => write!(f, "{}: {field}", self.name),
+        }
+    }
+}
+
+/// An argument of the call, or an array in its structure.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a> {
+    arrays: &'a Arrays,
+    place: Place,
+    /// Bytes held in reserve for each byte of the array.
+    in_reserve: usize,
 }
 
 /// An array of the caller that results go to at the end of the call.
@@ -61,176 +76,209 @@ pub(super) struct Output<T> {
     length: usize,
 }
 
-impl<'h> Arrays<'h> {
+impl Arrays {
     /// The arrays of a call, before any is known.
     ///
     /// # Safety
-    /// Every pointer that a method is given is an argument of the call, or stands in a structure of its arguments. It
-    /// is NULL, or has as many elements as the header demands: initialised ones, if the call reads them, which nobody
-    /// writes to during the call; ones that nobody else accesses, if the call writes them.
+    /// Every pointer that a method of [`At`] is given is an argument of the call, or stands in a structure of its
+    /// arguments. It is NULL, or has as many elements as the header demands: initialised ones, if the call reads them,
+    /// which nobody writes to during the call; ones that nobody else accesses, if the call writes them.
     pub(super) unsafe fn of_call() -> Self {
         // So many arrays have most calls.
-        Arrays { ranges: Vec::with_capacity(16), in_reserve: IN_RESERVE, host: PhantomData }
+        Arrays { ranges: RefCell::new(Vec::with_capacity(16)) }
     }
 
-    /// An array to read, which must not be NULL unless it has no elements.
-    pub(super) fn required<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const T,
-        length: usize,
-    ) -> Result<&'h [T], Failure> {
-        refuse_null(position, name, pointer, length)?;
-        Ok(self.optional(position, name, pointer, length)?.unwrap_or_default())
+    /// The argument number `position`.
+    pub(super) fn at(&self, position: i32, name: &'static str) -> At<'_> {
+        At { arrays: self, place: Place { position, name, field: "" }, in_reserve: IN_RESERVE }
     }
 
-    /// Notes matrices, for which the call holds memory in reserve by itself.
-    pub(super) fn matrices<T>(
-        &mut self,
-        note: impl FnOnce(&mut Self) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        self.in_reserve = 0;
-        let noted = note(self);
-        self.in_reserve = IN_RESERVE;
-        noted
-    }
-
-    /// A matrix of `n` columns, argument number `position`, with its leading dimension, the next one: both with names.
-    pub(super) fn square(
-        &mut self,
-        position: i32,
-        (name, pointer): (&'static str, *const f64),
-        (ld_name, ld): (&str, i64),
-        n: usize,
-    ) -> Result<(&'h [f64], usize), Failure> {
-        let ld = size(position + 1, ld_name, ld)?;
-        let length = required_length(name, n, ld)
-            .map_err(|message| Failure::argument(position + 1, message))?;
-        let matrix = self.matrices(|arrays| arrays.required(position, name, pointer, length))?;
-        Ok((matrix, ld))
-    }
-
-    /// An array to read, `None` if it is NULL or has no elements.
-    pub(super) fn optional<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const T,
-        length: usize,
-    ) -> Result<Option<&'h [T]>, Failure> {
-        let present = self.note(position, name, pointer, length, false)?;
-        // SAFETY: not NULL and aligned (just checked); long enough by the contract of the call.
-        Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
-    }
-
-    /// An array to write at the end, which must not be NULL unless it has no elements.
-    pub(super) fn output<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *mut T,
-        length: usize,
-    ) -> Result<Output<T>, Failure> {
-        refuse_null(position, name, pointer, length)?;
-        self.optional_output(position, name, pointer, length)
-    }
-
-    /// An array to write at the end; writing to NULL does nothing.
-    pub(super) fn optional_output<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *mut T,
-        length: usize,
-    ) -> Result<Output<T>, Failure> {
-        let present = self.note(position, name, pointer.cast_const(), length, true)?;
-        Ok(Output { pointer, length: if present { length } else { 0 } })
-    }
-
-    /// An object of this library, by its handle.
-    pub(super) fn handle<T>(
-        &self,
-        position: i32,
-        name: &str,
-        handle: *const T,
-    ) -> Result<&'h T, Failure> {
-        refuse_null(position, name, handle, 1)?;
-        // SAFETY: not NULL; an object that lives, by the contract of the call.
-        Ok(unsafe { &*handle })
-    }
-
-    /// The name of a file: any bytes on Unix, UTF-8 elsewhere.
-    pub(super) fn path(&self, position: i32, pointer: *const c_char) -> Result<&'h Path, Failure> {
-        refuse_null(position, "path", pointer, 1)?;
-        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
-        let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
-        if bytes.is_empty() {
-            return Err(Failure::argument(position, "path is empty"));
-        }
-        #[cfg(unix)]
-        let path = Some(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes));
-        #[cfg(not(unix))]
-        let path = std::str::from_utf8(bytes).ok();
-        let path = path.ok_or_else(|| Failure::argument(position, "path is not UTF-8"))?;
-        Ok(Path::new(path))
-    }
-
-    /// A text, `None` if it is NULL.
-    pub(super) fn text(
-        &self,
-        position: i32,
-        name: &str,
-        pointer: *const c_char,
-    ) -> Result<Option<&'h str>, Failure> {
-        if pointer.is_null() {
-            return Ok(None);
-        }
-        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
-        let text = unsafe { CStr::from_ptr(pointer) }.to_str();
-        text.map(Some).map_err(|_| Failure::argument(position, format!("{name} is not UTF-8")))
+    /// Dimension, pairs and unknowns, from the arguments number `first` and `first + 1`.
+    pub(super) fn sizes(&self, first: i32, dim: i32, pairs: i64) -> Outcome<(usize, usize, usize)> {
+        let place = |argument| first + i32::from(argument == Argument::Size);
+        let dim = problem::checked_dim(dim).map_err(refused(place))?;
+        let pairs = self.at(first + 1, "pairs").size(pairs)?;
+        Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(refused(place))?))
     }
 
     /// Refuses an output that shares memory with another array.
-    pub(super) fn check_overlap(&self) -> Result<(), Failure> {
-        for (index, one) in self.ranges.iter().enumerate() {
-            for two in &self.ranges[..index] {
+    pub(super) fn check_overlap(&self) -> Outcome<()> {
+        let ranges = self.ranges.borrow();
+        for (index, one) in ranges.iter().enumerate() {
+            for two in &ranges[..index] {
                 let overlap = one.begin < two.end && two.begin < one.end;
                 if overlap && (one.written || two.written) {
-                    return Err(Failure::argument(
-                        one.position,
-                        format!("{} overlaps {}: arrays must not share memory", one.name, two.name),
-                    ));
+                    let (one, two) = (one.place, two.place);
+                    let message = format!("{one} overlaps {two}: arrays must not share memory");
+                    return Err(Failure::argument(one.position, message));
                 }
             }
         }
         Ok(())
     }
+}
+
+impl<'a> At<'a> {
+    /// Another name of the argument.
+    pub(super) fn named(self, name: &'static str) -> Self {
+        At { place: Place { name, ..self.place }, ..self }
+    }
+
+    /// A field of the argument, a structure.
+    pub(super) fn field(self, field: &'static str) -> Self {
+        At { place: Place { field, ..self.place }, ..self }
+    }
+
+    /// It is a matrix. A call makes few copies of one, and holds memory in reserve for them by itself.
+    pub(super) fn matrix(self) -> Self {
+        At { in_reserve: 0, ..self }
+    }
+
+    /// The number of the argument.
+    pub(super) fn position(self) -> i32 {
+        self.place.position
+    }
+
+    /// The next argument, of the same name.
+    pub(super) fn next(self) -> Self {
+        At { place: Place { position: self.place.position + 1, ..self.place }, ..self }
+    }
+
+    /// Refuses the argument: its name, and what is wrong.
+    pub(super) fn refuse<T>(self, wrong: impl Display) -> Outcome<T> {
+        Err(Failure::argument(self.place.position, format!("{} {wrong}", self.place)))
+    }
+
+    /// Refuses the argument for something in it, a sentence of its own behind the name.
+    pub(super) fn refuse_part<T>(self, wrong: impl Display) -> Outcome<T> {
+        Err(Failure::argument(self.place.position, format!("{}: {wrong}", self.place)))
+    }
+
+    /// Refuses the argument for an error of the library about something in it.
+    pub(super) fn refuse_error<T>(self, error: &Error) -> Outcome<T> {
+        self.refuse_part(error.message().marked())
+    }
+
+    /// Refuses NULL, unless there are no elements.
+    pub(super) fn refuse_null<T>(self, pointer: *const T, length: usize) -> Outcome<()> {
+        if length > 0 && pointer.is_null() { self.refuse("is NULL") } else { Ok(()) }
+    }
+
+    /// A size that must not be negative.
+    pub(super) fn size(self, value: i64) -> Outcome<usize> {
+        let wrong = |_| self.refuse(format!("is {value}, it must not be negative"));
+        usize::try_from(value).or_else(wrong)
+    }
+
+    /// An array to read, which must not be NULL unless it has no elements.
+    pub(super) fn required<T>(self, pointer: *const T, length: usize) -> Outcome<&'a [T]> {
+        self.refuse_null(pointer, length)?;
+        Ok(self.optional(pointer, length)?.unwrap_or_default())
+    }
+
+    /// An array to read, `None` if it is NULL or has no elements.
+    pub(super) fn optional<T>(self, pointer: *const T, length: usize) -> Outcome<Option<&'a [T]>> {
+        let present = self.note(pointer, length, false)?;
+        // SAFETY: not NULL and aligned (just checked); long enough by the contract of the call.
+        Ok(present.then(|| unsafe { std::slice::from_raw_parts(pointer, length) }))
+    }
+
+    /// A matrix of `n` columns with its leading dimension, the next argument.
+    pub(super) fn square(
+        self,
+        pointer: *const f64,
+        (ld_name, ld): (&'static str, i64),
+        n: usize,
+    ) -> Outcome<(&'a [f64], usize)> {
+        let at_ld = self.next().named(ld_name);
+        let ld = at_ld.size(ld)?;
+        let length = required_length(self.place.name, n, ld)
+            .map_err(|message| Failure::argument(at_ld.place.position, message))?;
+        Ok((self.matrix().required(pointer, length)?, ld))
+    }
+
+    /// An array of indices that count from `base`, counted from 0.
+    pub(super) fn indices(
+        self,
+        first: *const i64,
+        length: usize,
+        base: i64,
+    ) -> Outcome<Vec<usize>> {
+        self.shifted(self.required(first, length)?, base)
+    }
+
+    /// Indices that count from `base`, counted from 0.
+    pub(super) fn shifted(self, values: &[i64], base: i64) -> Outcome<Vec<usize>> {
+        let shift = |(i, &value): (usize, &i64)| {
+            value.checked_sub(base).and_then(|value| usize::try_from(value).ok()).ok_or_else(|| {
+                let place = entry(&self.place.to_string(), [i]);
+                let message = format!("{place} is {value}, less than {base}");
+                Failure::argument(self.place.position, message)
+            })
+        };
+        values.iter().enumerate().map(shift).collect()
+    }
+
+    /// An array to write at the end, which must not be NULL unless it has no elements.
+    pub(super) fn output<T>(self, pointer: *mut T, length: usize) -> Outcome<Output<T>> {
+        self.refuse_null(pointer, length)?;
+        self.optional_output(pointer, length)
+    }
+
+    /// An array to write at the end; writing to NULL does nothing.
+    pub(super) fn optional_output<T>(self, pointer: *mut T, length: usize) -> Outcome<Output<T>> {
+        let present = self.note(pointer.cast_const(), length, true)?;
+        Ok(Output { pointer, length: if present { length } else { 0 } })
+    }
+
+    /// An object of this library, by its handle.
+    pub(super) fn handle<T>(self, handle: *const T) -> Outcome<&'a T> {
+        self.refuse_null(handle, 1)?;
+        // SAFETY: not NULL; an object that lives, by the contract of the call.
+        Ok(unsafe { &*handle })
+    }
+
+    /// The name of a file: any bytes on Unix, UTF-8 elsewhere.
+    pub(super) fn path(self, pointer: *const c_char) -> Outcome<&'a Path> {
+        self.refuse_null(pointer, 1)?;
+        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
+        let bytes = unsafe { CStr::from_ptr(pointer) }.to_bytes();
+        if bytes.is_empty() {
+            return self.refuse("is empty");
+        }
+        #[cfg(unix)]
+        let path = Some(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(bytes));
+        #[cfg(not(unix))]
+        let path = std::str::from_utf8(bytes).ok();
+        path.map_or_else(|| self.refuse("is not UTF-8"), |path| Ok(Path::new(path)))
+    }
+
+    /// A text, `None` if it is NULL.
+    pub(super) fn text(self, pointer: *const c_char) -> Outcome<Option<&'a str>> {
+        if pointer.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: not NULL; a text that ends with a zero, by the contract of the call.
+        let text = unsafe { CStr::from_ptr(pointer) }.to_str();
+        text.map(Some).or_else(|_| self.refuse("is not UTF-8"))
+    }
 
     /// Checks and notes an array, and holds memory in reserve for it; false if there is nothing to access.
-    pub(super) fn note<T>(
-        &mut self,
-        position: i32,
-        name: &'static str,
-        pointer: *const T,
-        length: usize,
-        written: bool,
-    ) -> Result<bool, Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
+    pub(super) fn note<T>(self, pointer: *const T, length: usize, written: bool) -> Outcome<bool> {
         if length == 0 || pointer.is_null() {
             return Ok(false);
         }
         if !pointer.is_aligned() {
-            return refuse(format!("{name} is not aligned to {} bytes", align_of::<T>()));
+            return self.refuse(format!("is not aligned to {} bytes", align_of::<T>()));
         }
         let begin = pointer.addr();
         let bytes =
             length.checked_mul(size_of::<T>()).filter(|bytes| *bytes <= isize::MAX as usize);
         let Some((bytes, end)) = bytes.and_then(|bytes| Some((bytes, begin.checked_add(bytes)?)))
         else {
-            return refuse(format!("{name} cannot have {length} entries"));
+            return self.refuse(format!("cannot have {length} entries"));
         };
-        self.ranges.push(Range { position, name, begin, end, written });
+        self.arrays.ranges.borrow_mut().push(Range { place: self.place, begin, end, written });
         guard::reserve(self.in_reserve.saturating_mul(bytes))?;
         Ok(true)
     }
@@ -278,34 +326,6 @@ impl<T: Copy> Output<T> {
     }
 }
 
-fn refuse_null<T>(
-    position: i32,
-    name: &str,
-    pointer: *const T,
-    length: usize,
-) -> Result<(), Failure> {
-    if length > 0 && pointer.is_null() {
-        return Err(Failure::argument(position, format!("{name} is NULL")));
-    }
-    Ok(())
-}
-
-/// A size that must not be negative.
-pub(super) fn size(position: i32, name: &str, value: i64) -> Result<usize, Failure> {
-    usize::try_from(value).map_err(|_| {
-        Failure::argument(position, format!("{name} is {value}, it must not be negative"))
-    })
-}
-
-/// Dimension, pairs and unknowns, from the arguments number `first` and `first + 1` of a call.
-pub(super) fn sizes(first: i32, dim: i32, pairs: i64) -> Result<(usize, usize, usize), Failure> {
-    let place = |argument| first + i32::from(argument == Argument::Size);
-    let from_error = |error| Failure::from_error(error, place);
-    let dim = problem::checked_dim(dim).map_err(from_error)?;
-    let pairs = size(first + 1, "pairs", pairs)?;
-    Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(from_error)?))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -314,11 +334,11 @@ mod tests {
     #[test]
     fn no_array_is_longer_than_half_of_all_addresses() {
         // SAFETY: nothing is read.
-        let mut arrays = unsafe { Arrays::of_call() };
+        let arrays = unsafe { Arrays::of_call() };
         let most = isize::MAX as usize / size_of::<f64>();
         for (length, exists) in [(most, true), (most + 1, false)] {
             // Of matrices, nothing is held in reserve.
-            let noted = arrays.matrices(|arrays| arrays.note(1, "x", &1.0_f64, length, false));
+            let noted = arrays.at(1, "x").matrix().note(&1.0_f64, length, false);
             assert_eq!(noted.is_ok(), exists);
         }
     }

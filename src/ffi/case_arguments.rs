@@ -1,7 +1,7 @@
 //! The data of load cases of a model, which several calls receive in the same order.
 
 use super::args::Arrays;
-use super::guard::{self, Failure, number_of};
+use super::guard::{self, Failure, Outcome, number_of};
 use super::law;
 use crate::error::Argument::{self, Gap, Law, LawChoice, Load, Matrix, Prescribed, ReferenceSlip};
 use crate::model::{LoadCase, Model};
@@ -26,11 +26,11 @@ impl CaseArguments {
     /// settings, 0: none.
     pub(super) fn read<'h>(
         &self,
-        arrays: &mut Arrays<'h>,
+        arrays: &'h Arrays,
         model: &'h Model,
         cases: usize,
         memory_limit: u64,
-    ) -> Result<LoadCases<'h>, Failure> {
+    ) -> Outcome<LoadCases<'h>> {
         let bytes = model.memory();
         // A case that may need more is refused before it takes anything.
         if memory_limit == 0 || bytes <= memory_limit {
@@ -41,17 +41,17 @@ impl CaseArguments {
             guard::reserve_estimate(bytes).map_err(explained)?;
         }
         guard::reserve_estimate(model.memory_of_cases(cases))?;
-        let at = |offset| self.first + offset;
+        let at = |offset, name| arrays.at(self.first + offset, name);
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
         let cases = LoadCases {
             model,
-            load: arrays.matrices(|arrays| arrays.required(at(0), "f", self.f, host))?,
-            prescribed: arrays.optional(at(1), "prescribed", self.prescribed, fixed)?,
-            gap: arrays.required(at(2), "gap", self.gap, pairs)?,
-            law: law::read(arrays, at(3), (self.law, self.friction), pairs)?,
-            slip0: arrays.optional(at(5), "slip0", self.slip0, slips)?,
+            load: at(0, "f").matrix().required(self.f, host)?,
+            prescribed: at(1, "prescribed").optional(self.prescribed, fixed)?,
+            gap: at(2, "gap").required(self.gap, pairs)?,
+            law: law::read(at(3, "law"), (self.law, self.friction), pairs)?,
+            slip0: at(5, "slip0").optional(self.slip0, slips)?,
         };
         guard::reserve_estimate(cases.memory_of_ties())?;
         Ok(cases)
@@ -100,7 +100,7 @@ impl<'a> LoadCases<'a> {
 }
 
 /// `length` for each case.
-pub(super) fn times(cases: usize, length: usize) -> Result<usize, Failure> {
+pub(super) fn times(cases: usize, length: usize) -> Outcome<usize> {
     length
         .checked_mul(cases)
         .ok_or_else(|| Failure::argument(2, format!("cases is {cases}, too many cases")))

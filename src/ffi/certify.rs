@@ -1,13 +1,18 @@
-//! The certificate of displacements from any origin.
+//! The certificate of displacements from any origin, and the proof that a solution exists next to them.
 
 use super::args::c_entry;
 use super::case_arguments::CaseArguments;
-use super::guard::Failure;
+use super::guard::{Failure, Outcome, refused};
 use super::model::SignoriniModel;
+use super::numbers::Numbered;
+use super::outputs::NO_RADIUS;
 use super::report::{SignoriniReport, state_codes};
-use super::status::{SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_SOLVED, remember};
+use super::status::{
+    SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember,
+};
 use crate::certificate::Certificate;
-use crate::error::Argument;
+use crate::error::{Argument, entry};
+use crate::law::State;
 use crate::settings::check_tolerance;
 
 /// Measures relative displacements of any origin on a load case, as the library measures its own.
@@ -42,25 +47,24 @@ pub unsafe extern "C" fn signorini_model_certify(
         let case = given.read(arrays, model, 1, 0)?.case(0);
         check_tolerance("tolerance", tolerance)
             .map_err(|message| Failure::argument(MEASURED - 1, message))?;
-        let d = arrays.required(MEASURED, "d", d, model.dim() * model.pairs())?;
-        let report = arrays.out_structures(12, "report", report, 1)?;
-        let state = arrays.optional_output(11, "state", state, model.pairs())?;
+        let d = arrays.at(MEASURED, "d").required(d, model.dim() * model.pairs())?;
+        let report = arrays.at(12, "report").out_structures(report, 1)?;
+        let state = arrays.at(11, "state").optional_output(state, model.pairs())?;
+        let at_force = arrays.at(10, "F");
         let (certificate, force) = if model.is_determined_by_displacements() {
-            let force = arrays.optional_output(10, "F", F, d.len())?;
+            let force = at_force.optional_output(F, d.len())?;
             arrays.check_overlap()?;
             (model.certify(&case, d), Some(force))
         } else {
-            let force = arrays.required(10, "F", F.cast_const(), d.len())?;
+            let force = at_force.required(F.cast_const(), d.len())?;
             arrays.check_overlap()?;
             (model.certify_forces(&case, d, force), None)
         };
-        let certificate = certificate.map_err(|error| {
-            Failure::from_error(error, |argument| match argument {
-                Argument::Force => 10,
-                argument => given.position(argument, MEASURED),
-            })
-        })?;
-        let certificate = certificate.with_rounding(tolerance);
+        let position = |argument| match argument {
+            Argument::Force => 10,
+            argument => given.position(argument, MEASURED),
+        };
+        let certificate = certificate.map_err(refused(position))?.with_rounding(tolerance);
         let status = judged(&certificate, tolerance);
         if let Some(force) = force {
             force.write(&certificate.force);
@@ -79,4 +83,68 @@ fn judged(certificate: &Certificate, tolerance: f64) -> i32 {
     let eta = certificate.eta;
     remember(format!("d is not a solution: eta is {eta:.1e}, wanted {tolerance:.1e}"));
     SIGNORINI_STATUS_NOT_A_SOLUTION
+}
+
+/// Tries to prove that a load case has a solution next to displacements of any origin, in the
+/// sense of SIGNORINI_PROOF_PROVED, and bounds its distance. Others may exist.
+///
+/// @param model  a model with a condensed matrix
+/// @param f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
+/// @param d      relative displacements, N
+/// @param state  SIGNORINI_STATE_... of each pair; NULL: those of d
+/// @param F      out: contact forces of the solution, N; zeros if not proved; may be NULL
+/// @param radius_d,radius_F  out: as in signorini_extra; may be NULL
+/// @return 0: proved; SIGNORINI_STATUS_NOT_PROVED: not; or another status
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_prove(
+    model: *const SignoriniModel,
+    f: *const f64,
+    prescribed: *const f64,
+    gap: *const f64,
+    law: i32,
+    friction: *const f64,
+    slip0: *const f64,
+    d: *const f64,
+    state: *const i32,
+    F: *mut f64,
+    radius_d: *mut f64,
+    radius_F: *mut f64,
+) -> i32 {
+    const MEASURED: i32 = 8;
+    let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
+    c_entry!(|arrays| {
+        let model = arrays.model(model)?;
+        let case = given.read(arrays, model, 1, 0)?.case(0);
+        let d = arrays.at(MEASURED, "d").required(d, model.dim() * model.pairs())?;
+        let state = arrays.at(STATE, "state").optional(state, model.pairs())?;
+        let force = arrays.at(10, "F").optional_output(F, d.len())?;
+        let radius_d = arrays.at(11, "radius_d").optional_output(radius_d, d.len())?;
+        let radius_force = arrays.at(12, "radius_F").optional_output(radius_F, d.len())?;
+        arrays.check_overlap()?;
+        let states = state.map(states).transpose()?;
+        let position = |argument| given.position(argument, MEASURED);
+        let proof = model.prove(&case, d, states.as_deref()).map_err(refused(position))?;
+        let proof = proof.as_ref();
+        force.write_or(proof.map(|proof| &proof.force), 0.0);
+        radius_d.write_or(proof.map(|proof| proof.radius_about(d)).as_ref(), NO_RADIUS);
+        radius_force.write_or(proof.map(|proof| &proof.force_radius), NO_RADIUS);
+        if proof.is_none() {
+            remember("no solution with these states is proved to exist next to d");
+            return Ok(SIGNORINI_STATUS_NOT_PROVED);
+        }
+        Ok(SIGNORINI_STATUS_SOLVED)
+    })
+}
+
+/// Number of `state` among the arguments.
+const STATE: i32 = 9;
+
+fn states(codes: &[i32]) -> Outcome<Vec<State>> {
+    let state = |(pair, code): (usize, &i32)| {
+        State::numbered(*code).ok_or_else(|| {
+            let place = entry("state", [pair]);
+            Failure::argument(STATE, place + &format!(" is {code}, it must be 0, 1 or 2"))
+        })
+    };
+    codes.iter().enumerate().map(state).collect()
 }

@@ -1,7 +1,7 @@
 //! The data of a condensed contact problem, which several calls receive in the same order.
 
-use super::args::{Arrays, sizes};
-use super::guard::{Failure, number_of};
+use super::args::Arrays;
+use super::guard::{Outcome, number_of};
 use super::law;
 use crate::error::Argument::{
     self, Dimension, Gap, Law, LawChoice, LeadingDimension, Load, Matrix, ReferenceSlip, Size,
@@ -31,19 +31,19 @@ impl CondensedArguments {
     pub(super) const COUNT: i32 = ARGUMENTS.len() as i32;
 
     /// The arrays as slices, noted in `arrays`.
-    pub(super) fn read<'h>(&self, arrays: &mut Arrays<'h>) -> Result<ContactData<'h>, Failure> {
-        let at = |offset| self.first + offset;
-        let (dim, pairs, n) = sizes(self.first, self.dim, self.pairs)?;
-        let (stiffness, ld) = arrays.square(at(2), ("K", self.K), ("ldk", self.ldk), n)?;
+    pub(super) fn read<'h>(&self, arrays: &'h Arrays) -> Outcome<ContactData<'h>> {
+        let at = |offset, name| arrays.at(self.first + offset, name);
+        let (dim, pairs, n) = arrays.sizes(self.first, self.dim, self.pairs)?;
+        let (stiffness, ld) = at(2, "K").square(self.K, ("ldk", self.ldk), n)?;
         Ok(ContactData {
             dim,
             pairs,
             stiffness,
             ld,
-            load: arrays.required(at(4), "f", self.f, n)?,
-            gap: arrays.required(at(5), "gap", self.gap, pairs)?,
-            law: law::read(arrays, at(6), (self.law, self.friction), pairs)?,
-            reference_slip: arrays.optional(at(8), "slip0", self.slip0, n - pairs)?,
+            load: at(4, "f").required(self.f, n)?,
+            gap: at(5, "gap").required(self.gap, pairs)?,
+            law: law::read(at(6, "law"), (self.law, self.friction), pairs)?,
+            reference_slip: at(8, "slip0").optional(self.slip0, n - pairs)?,
         })
     }
 

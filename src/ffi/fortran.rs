@@ -35,14 +35,20 @@ macro_rules! export {
     };
 }
 
-/// Exports an entry, whose last argument INFO is not in the list. The body returns the status of the function of C
-/// that it calls, or a refusal of its own. Argument k of that function is the entry's argument `positions[k - 1]`.
+/// Exports an entry, whose last argument INFO is not in the list. In the body each argument has its position and its
+/// name; it returns the status of the function of C that it calls, or a refusal of its own. The arguments of that
+/// function are those of the entry that `calls` lists.
 macro_rules! entry {
-    ($short:ident $long:ident positions $positions:expr,
+    ($short:ident $long:ident calls [$($given:ident),*],
      ($($argument:ident: $type:ty),* $(,)?) $body:block) => {
         export! {
-            $short $long ($($argument: $type,)* info: *mut I) {
-                run(info, &$positions, || $body)
+            $short $long ($($argument: $type,)* INFO: *mut I) {
+                let mut position = 0;
+                $(
+                    position += 1;
+                    let $argument = Argument::of($argument, position, stringify!($argument));
+                )*
+                run(INFO, &[$($given.position),*], || $body)
             }
         }
     };
@@ -51,6 +57,5 @@ macro_rules! entry {
 mod arguments;
 mod calls;
 mod handles;
-mod message;
 mod sparse;
 mod surfaces;

@@ -14,6 +14,9 @@ use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::products;
 use crate::shortage::Shortage;
 
+/// What a step of a call gives, or why the call ends.
+pub(super) type Outcome<T> = Result<T, Failure>;
+
 /// Why a call ends without a result.
 pub(super) struct Failure {
     code: i32,
@@ -37,6 +40,12 @@ impl Failure {
         Failure { message: message.into(), ..self }
     }
 
+    /// This failure in one of several structures.
+    pub(super) fn within(self, structure: &str) -> Self {
+        let message = format!("{structure}: {}", self.message.marked());
+        Failure { message: message.into(), ..self }
+    }
+
     /// The memory that a call holds in reserve could not be had.
     fn no_reserve(bytes: usize) -> Self {
         let megabytes = bytes as f64 / 1e6;
@@ -51,23 +60,21 @@ impl Failure {
     pub(super) fn code(&self) -> i32 {
         self.code
     }
+}
 
-    /// An error of the library, whose argument has the position that `position` tells.
-    pub(super) fn from_error(error: Error, position: impl Fn(Argument) -> i32) -> Self {
+/// Why a call ends at an error of the library, whose argument has the number that `position` tells.
+pub(super) fn refused(position: impl Fn(Argument) -> i32) -> impl Fn(Error) -> Failure {
+    move |error| {
         let message = error.message();
-        match error {
-            Error::Invalid { argument, .. } => Failure { code: -position(argument), message },
-            Error::OutOfMemory(_) => Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message },
-            Error::Stopped { limit, .. } => {
-                let code = match limit {
-                    Limit::Memory => SIGNORINI_STATUS_MEMORY_LIMIT,
-                    Limit::Time => SIGNORINI_STATUS_TIME_LIMIT,
-                    Limit::Cancelled => SIGNORINI_STATUS_CANCELLED,
-                };
-                Failure { code, message }
-            }
-            Error::File(_) => Failure { code: SIGNORINI_STATUS_FILE, message },
-        }
+        let code = match error {
+            Error::Invalid { argument, .. } => -position(argument),
+            Error::OutOfMemory(_) => SIGNORINI_STATUS_OUT_OF_MEMORY,
+            Error::Stopped { limit: Limit::Memory, .. } => SIGNORINI_STATUS_MEMORY_LIMIT,
+            Error::Stopped { limit: Limit::Time, .. } => SIGNORINI_STATUS_TIME_LIMIT,
+            Error::Stopped { limit: Limit::Cancelled, .. } => SIGNORINI_STATUS_CANCELLED,
+            Error::File(_) => SIGNORINI_STATUS_FILE,
+        };
+        Failure { code, message }
     }
 }
 
@@ -77,7 +84,7 @@ pub(super) fn number_of(argument: Argument, first: i32, listed: &[Argument]) -> 
 }
 
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; the C library prints none of them.
-pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
+pub(super) fn call(body: impl FnOnce() -> Outcome<i32>) -> i32 {
     let _surroundings = Surroundings::of_call();
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     super::static_link::keep();
@@ -104,19 +111,19 @@ pub(super) fn call(body: impl FnOnce() -> Result<i32, Failure>) -> i32 {
 }
 
 /// Obtains memory for a call that may need so much, before its work begins.
-pub(super) fn reserve(bytes: usize) -> Result<(), Failure> {
+pub(super) fn reserve(bytes: usize) -> Outcome<()> {
     if reserve::want(bytes) { Ok(()) } else { Err(Failure::no_reserve(bytes)) }
 }
 
 /// As [`reserve`], for what the library estimates.
-pub(super) fn reserve_estimate(bytes: u64) -> Result<(), Failure> {
+pub(super) fn reserve_estimate(bytes: u64) -> Outcome<()> {
     prepare_thread()?;
     reserve(usize::try_from(bytes).unwrap_or(usize::MAX))
 }
 
 /// Lets the thread obtain what it keeps for matrix products while that is held in reserve: faer obtains it at
 /// the first product of a thread, and has no way to be refused.
-pub(super) fn prepare_thread() -> Result<(), Failure> {
+pub(super) fn prepare_thread() -> Outcome<()> {
     thread_local! {
         static READY: Cell<bool> = const { Cell::new(false) };
     }

@@ -1,7 +1,7 @@
 //! The beginning and the end of a handle.
 
-use super::args::Arrays;
-use super::guard::{self, Failure};
+use super::args::At;
+use super::guard::{self, Outcome, refused};
 use super::status::keeping_sentence;
 use crate::error::{Argument, Error};
 use crate::shortage;
@@ -9,16 +9,11 @@ use crate::shortage;
 /// The caller's place for a new handle; NULL until there is one.
 pub(super) struct OutPointer<T>(*mut *mut T);
 
-impl Arrays<'_> {
+impl At<'_> {
     /// The place for a new handle, which holds NULL from now on.
-    pub(super) fn out_pointer<T>(
-        &self,
-        position: i32,
-        name: &str,
-        place: *mut *mut T,
-    ) -> Result<OutPointer<T>, Failure> {
+    pub(super) fn out_pointer<T>(self, place: *mut *mut T) -> Outcome<OutPointer<T>> {
         if place.is_null() || !place.is_aligned() {
-            return Err(Failure::argument(position, format!("{name} is NULL or not aligned")));
+            return self.refuse("is NULL or not aligned");
         }
         // SAFETY: not NULL and aligned; the caller's place, by the contract of the call.
         unsafe { place.write(std::ptr::null_mut()) };
@@ -32,8 +27,8 @@ impl<T> OutPointer<T> {
         self,
         object: Result<M, Error>,
         position: impl Fn(Argument) -> i32,
-    ) -> Result<i32, Failure> {
-        let object = object.map_err(|error| Failure::from_error(error, position))?;
+    ) -> Outcome<i32> {
+        let object = object.map_err(refused(position))?;
         let handle = Box::new(object.into());
         // The reserve of a call holds nothing that outlives it.
         shortage::check();

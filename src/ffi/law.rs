@@ -1,7 +1,8 @@
 //! The friction law of the pairs, as an argument with its parameters.
 
-use super::args::Arrays;
-use super::guard::Failure;
+use super::args::At;
+use super::guard::Outcome;
+use super::numbers::{Numbered, numbers};
 use crate::problem::{FrictionLaw, Law};
 
 /// No friction: F_t = 0.
@@ -27,52 +28,44 @@ pub const SIGNORINI_LAW_BY_PAIR: i32 = 6;
 /// Tied: d_n = gap, d_t = slip0, whatever F; gap +inf: free.
 pub const SIGNORINI_LAW_TIED: i32 = 7;
 
-/// The laws, in the order of [`Law`]; numbered without gaps.
-const NUMBERS: [i32; Law::ALL.len()] = [
-    SIGNORINI_LAW_FRICTIONLESS,
-    SIGNORINI_LAW_COULOMB,
-    SIGNORINI_LAW_TRESCA,
-    SIGNORINI_LAW_COHESIVE,
-    SIGNORINI_LAW_ORTHOTROPIC,
-    SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
-    SIGNORINI_LAW_BY_PAIR,
-    SIGNORINI_LAW_TIED,
-];
+numbers! {
+    Law {
+        Frictionless = SIGNORINI_LAW_FRICTIONLESS,
+        Coulomb = SIGNORINI_LAW_COULOMB,
+        Tresca = SIGNORINI_LAW_TRESCA,
+        Cohesive = SIGNORINI_LAW_COHESIVE,
+        Orthotropic = SIGNORINI_LAW_ORTHOTROPIC,
+        OrthotropicCollinear = SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR,
+        ByPair = SIGNORINI_LAW_BY_PAIR,
+        Tied = SIGNORINI_LAW_TIED,
+    }
+}
 
-/// The last of the laws.
-pub(super) const LAST_LAW: i32 = NUMBERS[NUMBERS.len() - 1];
+/// The last of the laws, which are numbered without gaps.
+pub(super) const LAST_LAW: i32 = Law::ALL.len() as i32 - 1;
 
-/// The arguments `law`, number `position`, and `friction`, the next one, for `pairs` pairs.
-pub(super) fn read<'h>(
-    arrays: &mut Arrays<'h>,
-    position: i32,
+/// The argument `law`, and `friction`, the next one, for `pairs` pairs.
+pub(super) fn read(
+    at: At<'_>,
     (law, friction): (i32, *const f64),
     pairs: usize,
-) -> Result<FrictionLaw<'h>, Failure> {
-    let Some(law) = Law::ALL.into_iter().find(|known| code(*known) == law) else {
+) -> Outcome<FrictionLaw<'_>> {
+    let Some(law) = Law::numbered(law) else {
         let known = Law::ALL.map(|law| {
             let name = law.name().to_uppercase().replace('-', "_");
-            format!("_{name} ({})", code(law))
+            format!("_{name} ({})", Numbered::number(law))
         });
-        let known = known.join(", ");
-        let message = format!("law is {law}, it must be SIGNORINI_LAW{known}");
-        return Err(Failure::argument(position, message));
+        return at.refuse(format!("is {law}, it must be SIGNORINI_LAW{}", known.join(", ")));
     };
     let parameters = law.parameters().len();
     if parameters == 0 {
         return Ok(law.with(&[]));
     }
+    let at_friction = at.next().named("friction");
     if friction.is_null() && pairs > 0 {
         let title = law.title();
-        let message =
-            format!("friction is NULL, it must hold the parameters of {title} of each pair");
-        return Err(Failure::argument(position + 1, message));
+        let wrong = format!("is NULL, it must hold the parameters of {title} of each pair");
+        return at_friction.refuse(wrong);
     }
-    let count = pairs.saturating_mul(parameters);
-    Ok(law.with(arrays.required(position + 1, "friction", friction, count)?))
-}
-
-/// The number of a law.
-pub(super) fn code(law: Law) -> i32 {
-    NUMBERS[law as usize]
+    Ok(law.with(at_friction.required(friction, pairs.saturating_mul(parameters))?))
 }

@@ -1,13 +1,12 @@
 //! The linear complementarity problem (LCP) in one call.
 
-use super::args::{c_entry, size};
-use super::guard::{self, Failure, number_of};
+use super::args::c_entry;
+use super::guard::{self, number_of, refused};
 use super::numbers::Numbered;
 use super::report::SignoriniReport;
 use super::settings::SignoriniSettings;
 use super::status::remember;
 use crate::error::Argument::{self, Covering, LeadingDimension, Load, Matrix, Size};
-use crate::error::Error;
 use crate::problem::Lcp;
 use crate::solve::{Status, memory, solve_lcp};
 
@@ -43,22 +42,23 @@ pub unsafe extern "C" fn signorini_lcp_solve(
     report: *mut SignoriniReport,
 ) -> i32 {
     c_entry!(|arrays| {
-        let n = size(1, "n", n)?;
-        let (matrix, ld) = arrays.square(2, ("M", M), ("ldm", ldm), n)?;
-        let q = arrays.required(4, "q", q, n)?;
-        let cover = arrays.optional(5, "cover", cover, n)?;
-        let received = SignoriniSettings::read(arrays, 6, settings)?;
-        let w = arrays.output(7, "w", w, n)?;
-        let z = arrays.output(8, "z", z, n)?;
-        let y = arrays.optional_output(9, "y", y, n)?;
-        let report = arrays.out_structures(10, "report", report, 1)?;
+        let n = arrays.at(1, "n").size(n)?;
+        let (matrix, ld) = arrays.at(2, "M").square(M, ("ldm", ldm), n)?;
+        let q = arrays.at(4, "q").required(q, n)?;
+        let cover = arrays.at(5, "cover").optional(cover, n)?;
+        let received = SignoriniSettings::read(arrays.at(6, "settings"), settings)?;
+        let w = arrays.at(7, "w").output(w, n)?;
+        let z = arrays.at(8, "z").output(z, n)?;
+        let y = arrays.at(9, "y").optional_output(y, n)?;
+        let report = arrays.at(10, "report").out_structures(report, 1)?;
         arrays.check_overlap()?;
 
         guard::reserve_estimate(memory(n))?;
-        let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(refused)?;
+        let position = |wrong| number_of(wrong, 1, &LCP_ARGUMENTS).unwrap_or(6);
+        let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(refused(position))?;
         let solution = received
             .monitored(|monitor| solve_lcp(&lcp, &received.settings, monitor))
-            .map_err(refused)?;
+            .map_err(refused(position))?;
 
         let status = solution.status.number();
         if solution.status != Status::Solved {
@@ -74,8 +74,3 @@ pub unsafe extern "C" fn signorini_lcp_solve(
 
 /// The arguments of the problem, in their order.
 pub(super) const LCP_ARGUMENTS: [Argument; 5] = [Size, Matrix, LeadingDimension, Load, Covering];
-
-/// A refusal, by the number of the argument that it is about.
-fn refused(error: Error) -> Failure {
-    Failure::from_error(error, |wrong| number_of(wrong, 1, &LCP_ARGUMENTS).unwrap_or(6))
-}

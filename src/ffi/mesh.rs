@@ -2,10 +2,8 @@
 
 use libc::c_char;
 
-use super::args::{Arrays, c_entry, size};
-use super::guard::Failure;
-use super::sparse::shifted;
-use super::structures;
+use super::args::{At, c_entry};
+use super::guard::{Outcome, refused};
 use super::zones::{SignoriniZone, Zones};
 use crate::error::Argument;
 use crate::file::{self, Field, Mesh, Values};
@@ -77,26 +75,26 @@ pub unsafe extern "C" fn signorini_mesh_write(
     fields: *const SignoriniField,
 ) -> i32 {
     c_entry!(|arrays| {
-        let path = arrays.path(1, path)?;
-        SignoriniMesh::with(arrays, 2, mesh, |arrays, mesh| {
+        let path = arrays.at(1, "path").path(path)?;
+        SignoriniMesh::with(arrays.at(2, "mesh"), mesh, |mesh| {
             let size_of_mesh = (mesh.dim, mesh.node_count());
             let zones = Zones::read(arrays, (n_zones, zones), size_of_mesh)?;
+            let at_u = arrays.at(3, "u");
             let displacement = match &zones {
-                Some(zones) => zones.displacement(arrays, u)?,
-                None => arrays.optional(3, "u", u, mesh.coordinates.len())?.map(<[f64]>::to_vec),
+                Some(zones) => zones.displacement(at_u, u)?,
+                None => at_u.optional(u, mesh.coordinates.len())?.map(<[f64]>::to_vec),
             };
             let displacement = displacement.iter();
             let displacement =
                 displacement.map(|u| Field { name: "displacement", values: Values::Vectors(u) });
             let of_zones = zones.iter().flat_map(Zones::fields);
             let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
-            for field in arrays.all(7, "fields", fields, size(6, "n_fields", n_fields)?)? {
-                written.push(own_field(arrays, field, size_of_mesh)?);
+            let (n_fields, at) = (arrays.at(6, "n_fields").size(n_fields)?, arrays.at(7, "fields"));
+            for field in at.all(fields, n_fields)? {
+                written.push(own_field(at, field, size_of_mesh)?);
             }
-            file::write_vtu(path, mesh, &written).map_err(|error| {
-                let at = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
-                Failure::from_error(error, at)
-            })?;
+            let position = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
+            file::write_vtu(path, mesh, &written).map_err(refused(position))?;
             Ok(0)
         })
     })
@@ -105,44 +103,40 @@ pub unsafe extern "C" fn signorini_mesh_write(
 impl SignoriniMesh {
     /// Hands over the caller's mesh with nodes counted from 0.
     fn with<T>(
-        arrays: &mut Arrays<'_>,
-        position: i32,
+        at: At<'_>,
         pointer: *const Self,
-        to: impl FnOnce(&mut Arrays<'_>, &Mesh<'_>) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        let wrong = |message: String| Failure::argument(position, message);
-        let given = arrays.whole(position, "mesh", pointer)?;
-        let dim = problem::checked_dim(given.dim)
-            .map_err(|error| wrong(format!("mesh: {}", error.message())))?;
-        let nodes = size(position, "mesh: nodes", given.nodes)?;
-        let cells = size(position, "mesh: cells", given.cells)?;
-        let base = structures::index_base(position, "mesh", given.index_base)?;
+        to: impl FnOnce(&Mesh<'_>) -> Outcome<T>,
+    ) -> Outcome<T> {
+        let given = at.whole(pointer)?;
+        let dim = problem::checked_dim(given.dim).or_else(|error| at.refuse_error(&error))?;
+        let nodes = at.field("nodes").size(given.nodes)?;
+        let cells = at.field("cells").size(given.cells)?;
+        let base = at.index_base(given.index_base)?;
         let (Some(length), Some(ends)) = (nodes.checked_mul(dim), cells.checked_add(1)) else {
-            return Err(wrong(format!("mesh: {nodes} nodes or {cells} cells are too many")));
+            return at.refuse_part(format!("{nodes} nodes or {cells} cells are too many"));
         };
-        let coordinates = arrays.required(position, "coordinates", given.coordinates, length)?;
-        let told = arrays.optional(position, "cell_types", given.cell_types, cells)?;
+        let coordinates = at.named("coordinates").required(given.coordinates, length)?;
+        let told = at.named("cell_types").optional(given.cell_types, cells)?;
         let types = told.map_or_else(|| vec![given.cell_type; cells], <[i32]>::to_vec);
-        let start = arrays.optional(position, "cell_start", given.cell_start, ends)?;
-        let start = match start {
-            Some(start) => shifted(position, "mesh: cell_start", start, base)?,
-            None => starts_of(&types).map_err(wrong)?,
+        let start = match at.named("cell_start").optional(given.cell_start, ends)? {
+            Some(start) => at.field("cell_start").shifted(start, base)?,
+            None => starts_of(at, &types)?,
         };
-        let nodes = arrays.required(position, "cell_nodes", given.cell_nodes, start[cells])?;
-        let nodes = shifted(position, "mesh: cell_nodes", nodes, base)?;
+        let nodes = at.named("cell_nodes").required(given.cell_nodes, start[cells])?;
+        let nodes = at.field("cell_nodes").shifted(nodes, base)?;
         let types: Result<Vec<u8>, _> = types.iter().map(|kind| u8::try_from(*kind)).collect();
-        let types = types.map_err(|_| wrong("mesh: a type is none of VTK's".into()))?;
-        to(arrays, &Mesh { dim, coordinates, types: &types, start: &start, nodes: &nodes })
+        let types = types.or_else(|_| at.refuse_part("a type is none of VTK's"))?;
+        to(&Mesh { dim, coordinates, types: &types, start: &start, nodes: &nodes })
     }
 }
 
 /// Starts of cells from their types.
-fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
+fn starts_of(at: At<'_>, types: &[i32]) -> Outcome<Vec<usize>> {
     let mut start = vec![0];
     for kind in types {
         let Some(nodes) = file::nodes_of_type(*kind) else {
-            return Err(format!(
-                "mesh: the number of nodes of type {kind} is not known, set cell_start"
+            return at.refuse_part(format!(
+                "the number of nodes of type {kind} is not known, set cell_start"
             ));
         };
         start.push(start[start.len() - 1] + nodes);
@@ -151,21 +145,20 @@ fn starts_of(types: &[i32]) -> Result<Vec<usize>, String> {
 }
 
 /// A field of the caller.
-fn own_field<'h>(
-    arrays: &mut Arrays<'h>,
-    field: &'h SignoriniField,
+fn own_field<'a>(
+    at: At<'a>,
+    field: &'a SignoriniField,
     (dim, nodes): (usize, usize),
-) -> Result<Field<'h>, Failure> {
-    let Some(name) = arrays.text(7, "fields: a name", field.name)? else {
-        return Err(Failure::argument(7, "fields: a name is NULL"));
+) -> Outcome<Field<'a>> {
+    let Some(name) = at.field("a name").text(field.name)? else {
+        return at.refuse_part("a name is NULL");
     };
     let components = usize::try_from(field.components).unwrap_or_default();
     if components != 1 && components != dim {
-        let message =
-            format!("fields: {name} has {} components, it needs 1 or {dim}", field.components);
-        return Err(Failure::argument(7, message));
+        let given = field.components;
+        return at.refuse_part(format!("{name} has {given} components, it needs 1 or {dim}"));
     }
-    let values = arrays.required(7, "values", field.values, components * nodes)?;
+    let values = at.named("values").required(field.values, components * nodes)?;
     let values = match components {
         1 => Values::Scalars(values),
         _ => Values::Vectors(values),

@@ -1,15 +1,18 @@
-//! The handle of a model.
+//! The handle of a model, and its content.
 
+use std::ptr::null;
 use std::sync::Mutex;
 
-use super::args::Arrays;
-use super::guard::{self, Failure};
-use crate::model::{Model, Past};
+use super::args::{Arrays, c_entry};
+use super::guard::{self, Outcome};
+use super::numbers::{Numbered, numbers};
+use super::structures::address;
+use crate::model::{Model, ModelKind, Past};
 
 /// A structure reduced to its contact pairs, for all load cases. It does not change: several
 /// threads may use one at once (but see SIGNORINI_START_PREVIOUS).
 pub struct SignoriniModel {
-    model: Model,
+    pub(super) model: Model,
     /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.
     past: Mutex<Option<Past>>,
 }
@@ -21,10 +24,6 @@ impl From<Model> for SignoriniModel {
 }
 
 impl SignoriniModel {
-    pub(super) fn model(&self) -> &Model {
-        &self.model
-    }
-
     /// Puts what is left for further calls, and returns what earlier ones have left.
     #[inline(never)] // tests/c/helgrind.supp names it
     pub(super) fn replace_past(&self, past: Option<Past>) -> Option<Past> {
@@ -34,18 +33,87 @@ impl SignoriniModel {
     }
 }
 
-impl<'h> Arrays<'h> {
+impl Arrays {
     /// The first argument, a model.
-    pub(super) fn model(&self, model: *const SignoriniModel) -> Result<&'h Model, Failure> {
-        self.model_handle(model).map(SignoriniModel::model)
+    pub(super) fn model(&self, model: *const SignoriniModel) -> Outcome<&Model> {
+        Ok(&self.model_handle(model)?.model)
     }
 
     /// As [`Self::model`], with what calls leave to the next ones.
-    pub(super) fn model_handle(
-        &self,
-        model: *const SignoriniModel,
-    ) -> Result<&'h SignoriniModel, Failure> {
+    pub(super) fn model_handle(&self, model: *const SignoriniModel) -> Outcome<&SignoriniModel> {
         guard::prepare_thread()?;
-        self.handle(1, "model", model)
+        self.at(1, "model").handle(model)
     }
+}
+
+/// A condensed stiffness matrix K.
+pub const SIGNORINI_MODEL_STIFFNESS: i32 = 0;
+/// Factors of the sparse stiffness matrix.
+pub const SIGNORINI_MODEL_FULL_SPACE: i32 = 1;
+/// Your products and solutions.
+pub const SIGNORINI_MODEL_OPERATOR: i32 = 2;
+/// The flexibility form, d = W F + q.
+pub const SIGNORINI_MODEL_FLEXIBILITY: i32 = 3;
+
+numbers! {
+    ModelKind {
+        Stiffness = SIGNORINI_MODEL_STIFFNESS,
+        FullSpace = SIGNORINI_MODEL_FULL_SPACE,
+        Operator = SIGNORINI_MODEL_OPERATOR,
+        Flexibility = SIGNORINI_MODEL_FLEXIBILITY,
+    }
+}
+
+/// The content of a model.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniModelData {
+    /// sizeof(signorini_model_data).
+    pub struct_size: u32,
+    /// Space dimension.
+    pub dim: i32,
+    /// Number of pairs.
+    pub pairs: i64,
+    /// H.
+    pub host_size: i64,
+    /// Number of fixed degrees of freedom.
+    pub fixed: i64,
+    /// Most bytes that a load case may take beside the model and your arrays. A call works on up to
+    /// 32 cases at once, each with some more vectors of H entries.
+    pub memory: i64,
+    /// SIGNORINI_MODEL_...
+    pub kind: i32,
+    /// Number of pairs whose rows follow from other pairs or supports.
+    pub dependent: i32,
+    /// Stiffness in relative displacements, N columns of N entries. NULL if kind is not
+    /// SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.
+    pub K: *const f64,
+    /// Frames of the pairs, to turn d and F to global axes: normal and tangents, unit vectors of
+    /// dim entries, vector = n d_n + t d_t. NULL: you condensed in frames of your own.
+    pub frames: *const f64,
+}
+
+/// Fills data, whose struct_size you set. Its arrays live as long as the model.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_model_view(
+    model: *const SignoriniModel,
+    data: *mut SignoriniModelData,
+) -> i32 {
+    c_entry!(|arrays| {
+        let model = arrays.model(model)?;
+        let shown = SignoriniModelData {
+            struct_size: size_of::<SignoriniModelData>() as u32,
+            dim: model.dim() as i32,
+            pairs: model.pairs() as i64,
+            host_size: model.host_size() as i64,
+            fixed: model.fixed_count() as i64,
+            memory: i64::try_from(model.memory()).unwrap_or(i64::MAX),
+            kind: model.kind().number(),
+            dependent: i32::try_from(model.dependent_pairs().len()).unwrap_or(i32::MAX),
+            K: address(model.stiffness()),
+            frames: model.frames().map_or(null(), address),
+        };
+        arrays.at(2, "data").out_structure(data)?.write(0, &shown);
+        Ok(0)
+    })
 }

@@ -1,12 +1,12 @@
 //! Models: made of what a host has, reduced once.
 
-use super::args::{c_entry, size, sizes};
+use super::args::c_entry;
 use super::guard::{self, number_of};
 use super::handle::release;
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
-use super::sparse::{FLEXIBILITY, STIFFNESS, SignoriniSparse, shifted};
+use super::sparse::SignoriniSparse;
 use crate::error::Argument::{
     self, Dimension, Fixed, LeadingDimension, Matrix, Order, SecondLeadingDimension, SecondMatrix,
     Size,
@@ -29,10 +29,10 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(6, "model", model)?;
-        let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let k = arrays.square(3, ("K", K), ("ldk", ldk), n)?;
-        let received = SignoriniSettings::read(arrays, 5, settings)?;
+        let place = arrays.at(6, "model").out_pointer(model)?;
+        let (dim, pairs, n) = arrays.sizes(1, dim, pairs)?;
+        let k = arrays.at(3, "K").square(K, ("ldk", ldk), n)?;
+        let received = SignoriniSettings::read(arrays.at(5, "settings"), settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = received.monitored(|monitor| Model::condensed_within(dim, pairs, k, monitor));
         place.fill(made, of_matrices)
@@ -66,11 +66,11 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(8, "model", model)?;
-        let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let first = arrays.square(3, ("K_A", K_A), ("lda", lda), n)?;
-        let second = arrays.square(5, ("K_B", K_B), ("ldb", ldb), n)?;
-        let received = SignoriniSettings::read(arrays, 7, settings)?;
+        let place = arrays.at(8, "model").out_pointer(model)?;
+        let (dim, pairs, n) = arrays.sizes(1, dim, pairs)?;
+        let first = arrays.at(3, "K_A").square(K_A, ("lda", lda), n)?;
+        let second = arrays.at(5, "K_B").square(K_B, ("ldb", ldb), n)?;
+        let received = SignoriniSettings::read(arrays.at(7, "settings"), settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = received
             .monitored(|monitor| Model::two_body_within(dim, pairs, [first, second], monitor));
@@ -103,14 +103,14 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(6, "model", model)?;
-        let (given, matrix) = SignoriniSparse::read(arrays, 1, STIFFNESS, K)?;
-        let order = given.order(arrays, 1)?;
-        let count = size(2, "n_fixed", n_fixed)?;
-        let fixed = arrays.required(3, "fixed", fixed, count)?;
-        let fixed = shifted(3, "fixed", fixed, matrix.index_base)?;
-        let received = SignoriniSettings::read(arrays, 5, settings)?;
-        let made = SignoriniPairs::with(arrays, 4, pairs, matrix.index_base, |_, pairs| {
+        let place = arrays.at(6, "model").out_pointer(model)?;
+        let (given, matrix) = SignoriniSparse::read(arrays.at(1, "K"), K)?;
+        let order = given.order(arrays.at(1, "K"))?;
+        let count = arrays.at(2, "n_fixed").size(n_fixed)?;
+        let base = matrix.index_base;
+        let fixed = arrays.at(3, "fixed").indices(fixed, count, base)?;
+        let received = SignoriniSettings::read(arrays.at(5, "settings"), settings)?;
+        let made = SignoriniPairs::with(arrays.at(4, "pairs"), pairs, base, |pairs| {
             guard::reserve_estimate(reduce::memory_of_vectors(pairs.dim * pairs.count))?;
             Ok(received.monitored(|monitor| {
                 Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
@@ -154,9 +154,9 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(5, "model", model)?;
-        let (dim, pairs, n) = sizes(1, dim, pairs)?;
-        let (w, ld) = arrays.square(3, ("W", W), ("ldw", ldw), n)?;
+        let place = arrays.at(5, "model").out_pointer(model)?;
+        let (dim, pairs, n) = arrays.sizes(1, dim, pairs)?;
+        let (w, ld) = arrays.at(3, "W").square(W, ("ldw", ldw), n)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
         place.fill(Model::flexibility(dim, pairs, w, ld), of_matrices)
     })
@@ -181,9 +181,9 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(4, "model", model)?;
-        let (dim, pairs, _) = sizes(1, dim, pairs)?;
-        let (_, w) = SignoriniSparse::read(arrays, 3, FLEXIBILITY, W)?;
+        let place = arrays.at(4, "model").out_pointer(model)?;
+        let (dim, pairs, _) = arrays.sizes(1, dim, pairs)?;
+        let (_, w) = SignoriniSparse::read(arrays.at(3, "W"), W)?;
         place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
     })
 }

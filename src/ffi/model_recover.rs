@@ -1,9 +1,9 @@
 //! From relative displacements and contact forces back to the host, and what a load case condenses
 //! to.
 
-use super::args::{c_entry, size};
+use super::args::c_entry;
 use super::case_arguments::times;
-use super::guard::{self, Failure};
+use super::guard::{self, refused};
 use super::model::SignoriniModel;
 use crate::error::Argument;
 use crate::reduce::SolvedCase;
@@ -27,16 +27,15 @@ pub unsafe extern "C" fn signorini_model_recover(
 ) -> i32 {
     c_entry!(|arrays| {
         let model = arrays.model(model)?;
-        let cases = size(2, "cases", cases)?;
+        let cases = arrays.at(2, "cases").size(cases)?;
         let (host, fixed) = (model.host_size(), model.fixed_count());
         let n = model.dim() * model.pairs();
         let lengths = (times(cases, host)?, times(cases, fixed)?, times(cases, n)?);
-        let (load, values, d, out) = arrays.matrices(|arrays| {
-            let load = arrays.optional(3, "f", f, lengths.0)?;
-            let values = arrays.optional(4, "prescribed", prescribed, lengths.1)?;
-            let d = arrays.required(5, "d", d, lengths.2)?;
-            Ok((load, values, d, arrays.output(6, "u", u, lengths.0)?))
-        })?;
+        let at = |position, name| arrays.at(position, name).matrix();
+        let load = at(3, "f").optional(f, lengths.0)?;
+        let values = at(4, "prescribed").optional(prescribed, lengths.1)?;
+        let d = at(5, "d").required(d, lengths.2)?;
+        let out = at(6, "u").output(u, lengths.0)?;
         arrays.check_overlap()?;
         guard::reserve_estimate(model.memory_of_recovery(cases))?;
         let case = |k: usize| SolvedCase {
@@ -45,8 +44,7 @@ pub unsafe extern "C" fn signorini_model_recover(
             d: &d[n * k..n * (k + 1)],
         };
         let write = |k: usize, u: Vec<f64>| out.part(host * k, host).write(&u);
-        let recovered = model.recover_each(cases, case, write);
-        recovered.map_err(|error| Failure::from_error(error, position))?;
+        model.recover_each(cases, case, write).map_err(refused(position))?;
         Ok(0)
     })
 }
@@ -76,11 +74,10 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     c_entry!(|arrays| {
         let model = arrays.model(model)?;
         let n = model.dim() * model.pairs();
-        let force = arrays.required(2, "F", F, n)?;
-        let out = arrays.output(3, "nodal", nodal, model.host_size())?;
+        let force = arrays.at(2, "F").required(F, n)?;
+        let out = arrays.at(3, "nodal").output(nodal, model.host_size())?;
         arrays.check_overlap()?;
-        let forces = model.nodal_forces(force);
-        out.write(&forces.map_err(|error| Failure::from_error(error, |_| 2))?);
+        out.write(&model.nodal_forces(force).map_err(refused(|_| 2))?);
         Ok(0)
     })
 }
@@ -99,18 +96,16 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
 ) -> i32 {
     c_entry!(|arrays| {
         let model = arrays.model(model)?;
-        let given = arrays.required(2, "f", f, model.host_size())?;
-        let values = arrays.optional(3, "prescribed", prescribed, model.fixed_count())?;
-        let out = arrays.output(4, "load", load, model.dim() * model.pairs())?;
+        let given = arrays.at(2, "f").required(f, model.host_size())?;
+        let values = arrays.at(3, "prescribed").optional(prescribed, model.fixed_count())?;
+        let out = arrays.at(4, "load").output(load, model.dim() * model.pairs())?;
         arrays.check_overlap()?;
-        let condensed = model.condensed_load(given, values).map_err(|error| {
-            Failure::from_error(error, |argument| match argument {
-                Argument::Matrix => 1,
-                Argument::Prescribed => 3,
-                _ => 2,
-            })
-        })?;
-        out.write(&condensed);
+        let position = |argument| match argument {
+            Argument::Matrix => 1,
+            Argument::Prescribed => 3,
+            _ => 2,
+        };
+        out.write(&model.condensed_load(given, values).map_err(refused(position))?);
         Ok(0)
     })
 }

@@ -3,12 +3,11 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::args::{c_entry, size};
+use super::args::c_entry;
 use super::case_arguments::{CaseArguments, LoadCases, times};
-use super::extra::SignoriniExtra;
-use super::guard::Failure;
+use super::guard::refused;
 use super::model::SignoriniModel;
-use super::outputs::{OutputArguments, Outputs};
+use super::outputs::{OutputArguments, Outputs, SignoriniExtra};
 use super::report::SignoriniReport;
 use super::settings::{ParsedSettings, SignoriniSettings, WarmStart};
 use super::status::{is_told, remember};
@@ -66,9 +65,9 @@ pub unsafe extern "C" fn signorini_model_solve(
     let wanted = OutputArguments { d, F, state, status, report, extra };
     c_entry!(|arrays| {
         let handle = arrays.model_handle(model)?;
-        let model = handle.model();
-        let cases = size(2, "cases", cases)?;
-        let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
+        let model = &handle.model;
+        let cases = arrays.at(2, "cases").size(cases)?;
+        let received = SignoriniSettings::read(arrays.at(SETTINGS, "settings"), settings)?;
         let limit = received.settings.memory_limit;
         let load_cases = given.read(arrays, model, cases, limit)?;
         let (pairs, n) = (model.pairs(), model.dim() * model.pairs());
@@ -232,7 +231,7 @@ impl Block<'_> {
                     let own = if argument == Argument::Start { START + forces } else { SETTINGS };
                     self.given.position(argument, own)
                 };
-                (Failure::from_error(error, position).code(), Some(message))
+                (refused(position)(error).code(), Some(message))
             }
         }
     }

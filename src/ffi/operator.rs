@@ -2,10 +2,9 @@
 
 use libc::c_void;
 
-use super::args::{Arrays, c_entry, size, sizes};
-use super::guard::{self, Failure};
+use super::args::{Arrays, c_entry};
+use super::guard::{self, Outcome};
 use super::model::SignoriniModel;
-use super::sparse::shifted;
 use super::structures::Structure;
 use super::surroundings::in_host;
 use crate::error::Error;
@@ -197,45 +196,44 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     model: *mut *mut SignoriniModel,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(2, "model", model)?;
-        let given = arrays.required_copy(1, "K", K)?;
+        let place = arrays.at(2, "model").out_pointer(model)?;
+        let given = arrays.at(1, "K").required_copy(K)?;
         place.fill(of_functions(arrays, given)?, |_| 1)
     })
 }
 
-fn wrong(message: &str) -> Failure {
-    Failure::argument(1, message)
-}
-
 /// The model of products and solutions of the pairs, or of products and a preconditioner on all unknowns.
-fn of_functions(
-    arrays: &mut Arrays<'_>,
-    given: SignoriniOperator,
-) -> Result<Result<Model, Error>, Failure> {
-    let (dim, pairs, n) = sizes(1, given.dim, given.pairs).map_err(|failure| failure.at(1))?;
-    let unknowns = size(1, "unknowns", given.unknowns)?;
-    given.stiffness.ok_or_else(|| wrong("K: stiffness is NULL"))?;
+fn of_functions(arrays: &Arrays, given: SignoriniOperator) -> Outcome<Result<Model, Error>> {
+    let at = arrays.at(1, "K");
+    let sizes = arrays.sizes(1, given.dim, given.pairs);
+    let (dim, pairs, n) = sizes.map_err(|failure| failure.at(1))?;
+    let unknowns = at.named("unknowns").size(given.unknowns)?;
+    if given.stiffness.is_none() {
+        return at.refuse_part("stiffness is NULL");
+    }
     let functions = Box::new(Functions(given));
     let reserve = |vector: usize| {
         guard::reserve(VECTORS.saturating_mul(vector).saturating_mul(size_of::<f64>()))
     };
+    let at_units = at.named("units");
     if unknowns == 0 {
         if given.precondition.is_some() {
-            return Err(wrong("K: precondition needs unknowns, their number"));
+            return at.refuse_part("precondition needs unknowns, their number");
         }
-        let units = arrays.optional(1, "units", given.units, n)?;
+        let units = at_units.optional(given.units, n)?;
         reserve(n)?;
         return Ok(Model::operator(dim, pairs, functions, units));
     }
-    given.precondition.ok_or_else(|| wrong("K: precondition is NULL"))?;
-    if given.inverse.is_some() || given.held.is_some() {
-        return Err(wrong(
-            "K: inverse and held are those of the pairs: with unknowns give precondition alone",
-        ));
+    if given.precondition.is_none() {
+        return at.refuse_part("precondition is NULL");
     }
-    let units = arrays.required(1, "units", given.units, unknowns)?;
-    let place = arrays.required(1, "place", given.place, n)?;
-    let place = shifted(1, "place", place, 0)?;
+    if given.inverse.is_some() || given.held.is_some() {
+        return at.refuse_part(
+            "inverse and held are those of the pairs: with unknowns give precondition alone",
+        );
+    }
+    let units = at_units.required(given.units, unknowns)?;
+    let place = at.named("place").indices(given.place, n, 0)?;
     reserve(unknowns)?;
     Ok(Model::preconditioned(dim, functions, units, &place))
 }

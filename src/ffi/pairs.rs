@@ -1,15 +1,12 @@
-//! The structure by which a host hands over its contact pairs.
+//! The structures by which a host hands over its contact pairs, with equations between degrees of freedom.
 
 use std::mem::offset_of;
 
-use super::args::{Arrays, size};
-use super::equations::SignoriniEquations;
-use super::guard::Failure;
-use super::sparse::shifted;
+use super::args::At;
+use super::guard::Outcome;
 use super::structures::Structure;
-use crate::error::Error;
 use crate::problem;
-use crate::reduce::ContactPairs;
+use crate::reduce::{ContactPairs, Equations};
 
 /// Contact pairs: each has a slave node, a point that faces it, and a normal. The point is
 /// interpolated between master nodes on other bodies; without masters it is on a rigid obstacle.
@@ -68,34 +65,28 @@ unsafe impl Structure for SignoriniPairs {
 impl SignoriniPairs {
     /// Hands over the caller's pairs with degrees of freedom counted from 0.
     pub(super) fn with<T>(
-        arrays: &mut Arrays<'_>,
-        position: i32,
+        at: At<'_>,
         pointer: *const Self,
         base: i64,
-        to: impl FnOnce(&mut Arrays<'_>, &ContactPairs<'_>) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
-        let given = arrays.required_copy(position, "pairs", pointer)?;
-        let wrong = |error: Error| {
-            Failure::argument(position, format!("pairs: {}", error.message().marked()))
+        to: impl FnOnce(&ContactPairs<'_>) -> Outcome<T>,
+    ) -> Outcome<T> {
+        let given = at.required_copy(pointer)?;
+        let dim = problem::checked_dim(given.dim).or_else(|error| at.refuse_error(&error))?;
+        let count = at.field("count").size(given.count)?;
+        let components = problem::unknowns(dim, count).or_else(|error| at.refuse_error(&error))?;
+        let nodes = given.nodes(at)?;
+        let [at_start, at_dofs, at_numbers] = nodes.names.map(|name| at.named(name));
+        let slaves = match nodes.slaves {
+            Some(slaves) => at.named("slaves").indices(slaves, components, base)?,
+            None => Vec::new(),
         };
-        let dim = problem::checked_dim(given.dim).map_err(wrong)?;
-        let count = size(position, "pairs: count", given.count)?;
-        let components = problem::unknowns(dim, count).map_err(wrong)?;
-        let nodes = given.nodes(position)?;
-        let (slaves, length) =
-            nodes.slaves.map_or((std::ptr::null(), 0), |slaves| (slaves, components));
-        let slaves = arrays.required(position, "slaves", slaves, length)?;
-        let slaves = shifted(position, "slaves", slaves, base)?;
-        let starts = arrays.optional(position, nodes.names[0], nodes.start, count + 1)?;
-        let master_starts = match starts {
-            Some(starts) => shifted(position, nodes.names[0], starts, base)?,
+        let master_starts = match at_start.optional(nodes.start, count + 1)? {
+            Some(starts) => at_start.shifted(starts, base)?,
             None if nodes.dofs.is_null() && nodes.numbers.is_null() => vec![0; count + 1],
             None => {
-                return refuse(
-                    "pairs: master_start is NULL, but masters or weights is not: set \
-                     master_start, or all three to NULL for rigid obstacles"
-                        .into(),
+                return at.refuse_part(
+                    "master_start is NULL, but masters or weights is not: set \
+                     master_start, or all three to NULL for rigid obstacles",
                 );
             }
         };
@@ -103,29 +94,29 @@ impl SignoriniPairs {
         // other starts.
         let masters = master_starts[count];
         let Some(entries) = masters.checked_mul(dim) else {
-            return refuse(format!("pairs: {masters} masters are too many"));
+            return at.refuse_part(format!("{masters} masters are too many"));
         };
         let (dofs, numbers) = if nodes.by_dof { (masters, entries) } else { (entries, masters) };
-        let dofs = arrays.required(position, nodes.names[1], nodes.dofs, dofs)?;
-        let numbers = arrays.required(position, nodes.names[2], nodes.numbers, numbers)?;
-        let equations = SignoriniEquations::read(arrays, position, given.equations, base)?;
+        let dofs = at_dofs.required(nodes.dofs, dofs)?;
+        let numbers = at_numbers.required(nodes.numbers, numbers)?;
+        let equations = SignoriniEquations::read(at.named("equations"), given.equations, base)?;
         let pairs = ContactPairs {
             dim,
             count,
             slaves: &slaves,
             master_start: &master_starts,
-            masters: &shifted(position, nodes.names[1], dofs, base)?,
+            masters: &at_dofs.shifted(dofs, base)?,
             weights: if nodes.by_dof { &[] } else { numbers },
             vectors: nodes.by_dof.then_some(numbers),
-            normals: arrays.required(position, "normals", given.normals, components)?,
-            tangents: arrays.optional(position, "tangents", given.tangents, components)?,
+            normals: at.named("normals").required(given.normals, components)?,
+            tangents: at.named("tangents").optional(given.tangents, components)?,
             equations: equations.view(),
         };
-        to(arrays, &pairs)
+        to(&pairs)
     }
 
     /// The nodes of the pairs in one of the forms.
-    fn nodes(&self, position: i32) -> Result<Nodes, Failure> {
+    fn nodes(&self, at: At<'_>) -> Outcome<Nodes> {
         let is_given = |arrays: &[*const i64], numbers: &[*const f64]| {
             numbers.iter().any(|array| !array.is_null())
                 || arrays.iter().any(|array| !array.is_null())
@@ -133,18 +124,17 @@ impl SignoriniPairs {
         let of_slaves = is_given(&[self.slaves, self.master_start, self.masters], &[self.weights]);
         let of_rows = is_given(&[self.row_nodes], &[self.row_weights, self.row_vectors]);
         let by_dof = !self.row_vectors.is_null();
-        let refuse = |message: &str| Err(Failure::argument(position, message));
         match (self.row_start.is_null(), of_slaves, of_rows) {
-            (false, true, _) => refuse(
-                "pairs: row_start is set, and slaves, master_start, masters or weights too: leave \
+            (false, true, _) => at.refuse_part(
+                "row_start is set, and slaves, master_start, masters or weights too: leave \
                  these four NULL, or row_start, row_nodes and row_weights",
             ),
-            (true, _, true) => refuse(
-                "pairs: row_nodes, row_weights or row_vectors is set, but row_start is NULL: set row_start, \
+            (true, _, true) => at.refuse_part(
+                "row_nodes, row_weights or row_vectors is set, but row_start is NULL: set row_start, \
                  row_nodes and one of the two others, or none",
             ),
-            (false, false, _) if by_dof && !self.row_weights.is_null() => refuse(
-                "pairs: row_weights and row_vectors are set: leave row_vectors NULL for rows of nodes, \
+            (false, false, _) if by_dof && !self.row_weights.is_null() => at.refuse_part(
+                "row_weights and row_vectors are set: leave row_vectors NULL for rows of nodes, \
                  row_weights for rows by degree of freedom",
             ),
             (false, false, _) => Ok(Nodes {
@@ -181,4 +171,67 @@ struct Nodes {
     numbers: *const f64,
     by_dof: bool,
     names: [&'static str; 3],
+}
+
+/// Equations u[dependent] = sum of coefficient * u[dof], without terms 0: constraints, rigid
+/// bodies, turned axes, cyclic sectors. Pairs may name dependents. Those of K are eliminated, with
+/// their loads; others have any number. Contact forces come out on the rest.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct SignoriniEquations {
+    /// sizeof(signorini_equations).
+    pub struct_size: u32,
+    /// 0.
+    pub reserved: i32,
+    /// Number of equations.
+    pub count: i64,
+    /// One of each equation, not in fixed.
+    pub dependent: *const i64,
+    /// Start of each equation's terms, as master_start.
+    pub start: *const i64,
+    /// Degree of freedom of each term.
+    pub dofs: *const i64,
+    /// Of each term.
+    pub coefficients: *const f64,
+}
+
+// SAFETY: led by its size; numbers and pointers.
+unsafe impl Structure for SignoriniEquations {}
+
+/// Equations of the caller, with degrees of freedom counted from 0.
+#[derive(Default)]
+pub(super) struct GivenEquations<'h> {
+    dependent: Vec<usize>,
+    start: Vec<usize>,
+    dofs: Vec<usize>,
+    coefficients: &'h [f64],
+}
+
+impl SignoriniEquations {
+    /// The caller's equations; none if the pointer is NULL.
+    pub(super) fn read(at: At<'_>, pointer: *const Self, base: i64) -> Outcome<GivenEquations<'_>> {
+        if pointer.is_null() {
+            return Ok(GivenEquations::default());
+        }
+        let given = at.required_copy(pointer)?;
+        at.check_reserved(given.reserved)?;
+        let count = at.field("count").size(given.count)?;
+        if count == 0 {
+            return Ok(GivenEquations::default());
+        }
+        let dependent = at.field("dependent").indices(given.dependent, count, base)?;
+        let start = at.field("start").indices(given.start, count.saturating_add(1), base)?;
+        let terms = start[count];
+        let dofs = at.field("dofs").indices(given.dofs, terms, base)?;
+        let coefficients = at.field("coefficients").required(given.coefficients, terms)?;
+        Ok(GivenEquations { dependent, start, dofs, coefficients })
+    }
+}
+
+impl GivenEquations<'_> {
+    /// The equations for the library.
+    pub(super) fn view(&self) -> Equations<'_> {
+        let GivenEquations { dependent, start, dofs, coefficients } = self;
+        Equations { dependent, start, dofs, coefficients }
+    }
 }

@@ -6,7 +6,7 @@ use std::ffi::CString;
 use super::args::c_entry;
 use super::guard;
 use super::handle::release;
-use super::law;
+use super::numbers::Numbered;
 use super::structures::address;
 use crate::file::{self, Kind, ProblemFile};
 
@@ -67,8 +67,8 @@ pub unsafe extern "C" fn signorini_problem_read(
     problem: *mut *mut SignoriniProblem,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(2, "problem", problem)?;
-        let path = arrays.path(1, path)?;
+        let place = arrays.at(2, "problem").out_pointer(problem)?;
+        let path = arrays.at(1, "path").path(path)?;
         guard::reserve_estimate(file::memory(path))?;
         place.fill(file::read(path), |_| 1)
     })
@@ -88,8 +88,8 @@ pub unsafe extern "C" fn signorini_problem_view(
     data: *mut SignoriniProblemData,
 ) -> i32 {
     c_entry!(|arrays| {
-        let shown = arrays.handle(1, "problem", problem)?.shown();
-        arrays.out_structure(2, "data", data)?.write(0, &shown);
+        let shown = arrays.at(1, "problem").handle(problem)?.shown();
+        arrays.at(2, "data").out_structure(data)?.write(0, &shown);
         Ok(0)
     })
 }
@@ -106,7 +106,7 @@ impl SignoriniProblem {
     fn shown(&self) -> SignoriniProblemData {
         let SignoriniProblem { problem, remark } = self;
         let (kind, law) = match problem.kind {
-            Kind::Contact(law) => (SIGNORINI_PROBLEM_CONTACT, law::code(law)),
+            Kind::Contact(law) => (SIGNORINI_PROBLEM_CONTACT, Numbered::number(law)),
             Kind::Lcp => (SIGNORINI_PROBLEM_LCP, -1),
         };
         SignoriniProblemData {

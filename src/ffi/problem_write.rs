@@ -2,10 +2,10 @@
 
 use libc::c_char;
 
-use super::args::{c_entry, size};
+use super::args::c_entry;
 use super::case_arguments::CaseArguments;
 use super::condensed::CondensedArguments;
-use super::guard::{Failure, number_of};
+use super::guard::{number_of, refused};
 use super::lcp::LCP_ARGUMENTS;
 use super::model::SignoriniModel;
 use crate::file;
@@ -45,14 +45,12 @@ pub unsafe extern "C" fn signorini_problem_write(
     let given =
         CondensedArguments { first: FIRST, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     c_entry!(|arrays| {
-        let path = arrays.path(1, path)?;
+        let path = arrays.at(1, "path").path(path)?;
         let data = given.read(arrays)?;
-        let remark = arrays.text(REMARK, "remark", remark)?;
+        let remark = arrays.at(REMARK, "remark").text(remark)?;
         ContactProblem::on_checked_matrix(data)
             .and_then(|problem| file::write(path, &problem, remark))
-            .map_err(|error| {
-                Failure::from_error(error, |argument| given.position(argument, REMARK))
-            })?;
+            .map_err(refused(|argument| given.position(argument, REMARK)))?;
         Ok(0)
     })
 }
@@ -76,19 +74,15 @@ pub unsafe extern "C" fn signorini_lcp_write(
 ) -> i32 {
     const REMARK: i32 = 7;
     c_entry!(|arrays| {
-        let path = arrays.path(1, path)?;
-        let remark = arrays.text(REMARK, "remark", remark)?;
-        let n = size(2, "n", n)?;
-        let (matrix, ld) = arrays.square(3, ("M", M), ("ldm", ldm), n)?;
-        let q = arrays.required(5, "q", q, n)?;
-        let cover = arrays.optional(6, "cover", cover, n)?;
+        let path = arrays.at(1, "path").path(path)?;
+        let remark = arrays.at(REMARK, "remark").text(remark)?;
+        let n = arrays.at(2, "n").size(n)?;
+        let (matrix, ld) = arrays.at(3, "M").square(M, ("ldm", ldm), n)?;
+        let q = arrays.at(5, "q").required(q, n)?;
+        let cover = arrays.at(6, "cover").optional(cover, n)?;
         Lcp::new(n, matrix, ld, q, cover)
             .and_then(|lcp| file::write_lcp(path, &lcp, remark))
-            .map_err(|error| {
-                Failure::from_error(error, |wrong| {
-                    number_of(wrong, 2, &LCP_ARGUMENTS).unwrap_or(REMARK)
-                })
-            })?;
+            .map_err(refused(|wrong| number_of(wrong, 2, &LCP_ARGUMENTS).unwrap_or(REMARK)))?;
         Ok(0)
     })
 }
@@ -117,12 +111,11 @@ pub unsafe extern "C" fn signorini_model_write(
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     c_entry!(|arrays| {
         let model = arrays.model(model)?;
-        let path = arrays.path(2, path)?;
+        let path = arrays.at(2, "path").path(path)?;
         let case = given.read(arrays, model, 1, 0)?.case(0);
-        let remark = arrays.text(REMARK, "remark", remark)?;
-        model.write_case(path, &case, remark).map_err(|error| {
-            Failure::from_error(error, |argument| given.position(argument, REMARK))
-        })?;
+        let remark = arrays.at(REMARK, "remark").text(remark)?;
+        let position = |argument| given.position(argument, REMARK);
+        model.write_case(path, &case, remark).map_err(refused(position))?;
         Ok(0)
     })
 }

@@ -2,8 +2,9 @@
 
 use libc::c_char;
 
+use super::args::c_entry;
 use super::numbers::{Numbered, numbers};
-use super::structures::{self, Structure};
+use super::structures::Structure;
 use crate::certificate::Certificate;
 use crate::law::State;
 use crate::settings::Method;
@@ -249,8 +250,7 @@ pub unsafe extern "C" fn signorini_report_default(
     report: *mut SignoriniReport,
     struct_size: u32,
 ) -> i32 {
-    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-    unsafe { structures::fill("report", report, struct_size) }
+    c_entry!(|arrays| { arrays.at(1, "report").fill(report, struct_size) })
 }
 
 /// Static text that describes one remark, such as "every gap is negative"; never NULL.

@@ -3,11 +3,11 @@
 use libc::c_void;
 use std::ops::ControlFlow;
 
-use super::args::Arrays;
-use super::guard::Failure;
+use super::args::{At, c_entry};
+use super::guard::{Outcome, refused};
 use super::numbers::{Numbered, numbers};
 use super::reserve;
-use super::structures::{self, Structure, chosen};
+use super::structures::Structure;
 use super::surroundings::in_host;
 use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
@@ -159,45 +159,43 @@ unsafe impl Structure for SignoriniSettings {
 
 impl SignoriniSettings {
     /// Reads and checks the caller's structure, NULL for the defaults.
-    pub(super) fn read(
-        arrays: &mut Arrays<'_>,
-        position: i32,
-        pointer: *const Self,
-    ) -> Result<ParsedSettings, Failure> {
-        let given = arrays.copy(position, "settings", pointer)?;
-        let natural = |name: &str, value: i64, wanted: &str| {
-            u64::try_from(value).map_err(|_| {
-                let message = format!("settings: {name} is {value}, it must be {wanted}");
-                Failure::argument(position, message)
-            })
+    pub(super) fn read(at: At<'_>, pointer: *const Self) -> Outcome<ParsedSettings> {
+        at.copy(pointer)?.parsed(at)
+    }
+
+    /// Checks settings.
+    pub(super) fn parsed(self, at: At<'_>) -> Outcome<ParsedSettings> {
+        let natural = |field, value: i64, wanted: &str| {
+            let wrong = |_| at.field(field).refuse(format!("is {value}, it must be {wanted}"));
+            u64::try_from(value).or_else(wrong)
         };
-        let max_iterations = natural("max_iterations", given.max_iterations, "at least 1")?;
-        let memory_limit = natural("memory_limit", given.memory_limit, "0 (none) or bytes")?;
-        let threads = natural("threads", given.threads.into(), "0 (one thread) or more")?;
-        structures::check_reserved(position, "settings", given.reserved)?;
+        let max_iterations = natural("max_iterations", self.max_iterations, "at least 1")?;
+        let memory_limit = natural("memory_limit", self.memory_limit, "0 (none) or bytes")?;
+        let threads = natural("threads", self.threads.into(), "0 (one thread) or more")?;
+        at.check_reserved(self.reserved)?;
         let settings = Settings {
-            method: chosen(position, ("settings", "method"), given.method)?,
-            tolerance: given.tolerance,
-            omega: given.omega,
-            damping: given.damping,
+            method: at.chosen("method", self.method)?,
+            tolerance: self.tolerance,
+            omega: self.omega,
+            damping: self.damping,
             max_iterations,
-            time_limit: given.time_limit,
-            search: chosen(position, ("settings", "search"), given.search)?,
-            proof: given.proof != 0,
+            time_limit: self.time_limit,
+            search: at.chosen("search", self.search)?,
+            proof: self.proof != 0,
             memory_limit,
-            full_space: given.full_space != 0,
+            full_space: self.full_space != 0,
         };
-        settings.validate().map_err(|error| Failure::from_error(error, |_| position))?;
+        settings.validate().map_err(refused(|_| at.position()))?;
         Ok(ParsedSettings {
             settings,
-            warm_start: match given.warm_start {
+            warm_start: match self.warm_start {
                 0 => WarmStart::None,
                 SIGNORINI_START_PREVIOUS => WarmStart::Previous,
                 _ => WarmStart::Given,
             },
             threads: usize::try_from(threads).unwrap_or(usize::MAX).max(1),
-            progress: given.progress,
-            user: given.user,
+            progress: self.progress,
+            user: self.user,
         })
     }
 }
@@ -255,6 +253,5 @@ pub unsafe extern "C" fn signorini_settings_default(
     settings: *mut SignoriniSettings,
     struct_size: u32,
 ) -> i32 {
-    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-    unsafe { structures::fill("settings", settings, struct_size) }
+    c_entry!(|arrays| { arrays.at(1, "settings").fill(settings, struct_size) })
 }

@@ -4,9 +4,8 @@ use std::ptr::null_mut;
 
 use super::args::c_entry;
 use super::condensed::CondensedArguments;
-use super::extra::SignoriniExtra;
-use super::guard::{self, Failure};
-use super::outputs::OutputArguments;
+use super::guard::{self, refused};
+use super::outputs::{OutputArguments, SignoriniExtra};
 use super::report::SignoriniReport;
 use super::settings::{SignoriniSettings, WarmStart};
 use super::status::{is_told, remember};
@@ -61,16 +60,14 @@ pub unsafe extern "C" fn signorini_solve(
     let wanted = OutputArguments { d, F, state, status: null_mut(), report, extra };
     c_entry!(|arrays| {
         let data = given.read(arrays)?;
-        let received = SignoriniSettings::read(arrays, SETTINGS, settings)?;
+        let received = SignoriniSettings::read(arrays.at(SETTINGS, "settings"), settings)?;
         let sizes = (data.dim * data.pairs, data.pairs, 1);
         let outputs = wanted.note(arrays, (START, START + 3), sizes)?;
         arrays.check_overlap()?;
 
-        let from_error = |error| {
-            Failure::from_error(error, |argument| {
-                let own = if argument == Argument::Start { START } else { SETTINGS };
-                given.position(argument, own)
-            })
+        let position = |argument| {
+            let own = if argument == Argument::Start { START } else { SETTINGS };
+            given.position(argument, own)
         };
         let n = data.dim * data.pairs;
         guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;
@@ -80,11 +77,21 @@ pub unsafe extern "C" fn signorini_solve(
             let problem = ContactProblem::new(data)?;
             solve(&problem, &received.settings, start.as_deref(), monitor)
         });
-        let solution = solved.map_err(from_error)?;
+        let solution = solved.map_err(refused(position))?;
         let status = outputs.write(0, &solution);
         if is_told(&solution) {
             remember(solution.message);
         }
         Ok(status)
     })
+}
+
+/// Most bytes that a call with n unknowns may take beside your arrays, with any method, law (ties:
+/// 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call
+/// that may need more than memory_limit is refused. Some MiB that each thread keeps are not
+/// counted. -1 if n is negative.
+#[unsafe(no_mangle)]
+pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
+    let n = usize::try_from(n).ok();
+    n.map_or(-1, |n| i64::try_from(memory(n)).unwrap_or(i64::MAX))
 }

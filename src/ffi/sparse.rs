@@ -4,11 +4,10 @@ use std::mem::offset_of;
 
 use libc::c_void;
 
-use super::args::{Arrays, size};
-use super::guard::Failure;
+use super::args::At;
+use super::guard::{Outcome, refused};
 use super::numbers::{Numbered, numbers};
-use super::structures::{Structure, chosen, index_base};
-use crate::error::entry;
+use super::structures::Structure;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
 
 /// Entries with row >= column.
@@ -55,15 +54,6 @@ numbers! {
     }
 }
 
-/// Names of a sparse matrix and of its arrays `col_start`, `row` and `values` in sentences.
-type Names = [&'static str; 4];
-
-/// The names of a stiffness.
-pub(super) const STIFFNESS: Names = ["K", "K: col_start", "K: row", "K: values"];
-
-/// The names of a flexibility.
-pub(super) const FLEXIBILITY: Names = ["W", "W: col_start", "W: row", "W: values"];
-
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniSparse {
     const OLDER: &'static [usize] = &[offset_of!(Self, order)];
@@ -71,80 +61,50 @@ unsafe impl Structure for SignoriniSparse {
 
 impl SignoriniSparse {
     /// The order of elimination of a stiffness that was read, counted from 0, if there is one.
-    pub(super) fn order(
-        &self,
-        arrays: &mut Arrays<'_>,
-        position: i32,
-    ) -> Result<Option<Vec<usize>>, Failure> {
+    pub(super) fn order(&self, at: At<'_>) -> Outcome<Option<Vec<usize>>> {
         if self.order.is_null() {
             return Ok(None);
         }
-        let n = size(position, "K: size", self.size)?;
-        let order = self.indices(arrays, position, "K", ("K: order", self.order, n))?;
-        let wide = match order {
+        let n = at.field("size").size(self.size)?;
+        let wide = match self.indices(at, "order", self.order, n)? {
             Indices::Narrow(order) => order.iter().map(|&i| i64::from(i)).collect(),
             Indices::Wide(order) => order.to_vec(),
         };
-        shifted(position, "order", &wide, i64::from(self.index_base)).map(Some)
+        at.named("order").shifted(&wide, i64::from(self.index_base)).map(Some)
     }
 
     /// An array of indices, in the width that the structure tells.
-    fn indices<'h>(
+    fn indices<'a>(
         &self,
-        arrays: &mut Arrays<'h>,
-        position: i32,
-        matrix: &str,
-        (name, pointer, length): (&'static str, *const c_void, usize),
-    ) -> Result<Indices<'h>, Failure> {
+        at: At<'a>,
+        field: &'static str,
+        pointer: *const c_void,
+        length: usize,
+    ) -> Outcome<Indices<'a>> {
+        let of_field = at.field(field);
         match self.index_bytes {
-            4 => arrays.required(position, name, pointer.cast(), length).map(Indices::Narrow),
-            8 => arrays.required(position, name, pointer.cast(), length).map(Indices::Wide),
-            other => {
-                let message = format!("{matrix}: index_bytes is {other}, it must be 4 or 8");
-                Err(Failure::argument(position, message))
-            }
+            4 => of_field.required(pointer.cast(), length).map(Indices::Narrow),
+            8 => of_field.required(pointer.cast(), length).map(Indices::Wide),
+            other => at.refuse_part(format!("index_bytes is {other}, it must be 4 or 8")),
         }
     }
 
     /// The caller's structure, and its matrix, viewed in the caller's arrays.
-    pub(super) fn read<'h>(
-        arrays: &mut Arrays<'h>,
-        position: i32,
-        [name, col_start, row, values]: Names,
-        pointer: *const Self,
-    ) -> Result<(Self, SparseMatrix<'h>), Failure> {
-        let given = arrays.required_copy(position, name, pointer)?;
-        let count = |what: &str, value| size(position, &format!("{name}: {what}"), value);
-        let triangle = chosen(position, (name, "triangle"), given.triangle)?;
-        let index_base = index_base(position, name, given.index_base)?;
-        let size = count("size", given.size)?;
-        let nnz = count("nnz", given.nnz)?;
+    pub(super) fn read(at: At<'_>, pointer: *const Self) -> Outcome<(Self, SparseMatrix<'_>)> {
+        let given = at.required_copy(pointer)?;
+        let triangle = at.chosen("triangle", given.triangle)?;
+        let index_base = at.index_base(given.index_base)?;
+        let size = at.field("size").size(given.size)?;
+        let nnz = at.field("nnz").size(given.nnz)?;
         let Some(columns) = size.checked_add(1) else {
-            return Err(Failure::argument(position, format!("{name}: size is {size}, too large")));
+            return at.refuse_part(format!("size is {size}, too large"));
         };
-        let values = arrays.required(position, values, given.values, nnz)?;
-        let mut indices = |array| given.indices(arrays, position, name, array);
-        let col_start = indices((col_start, given.col_start, columns))?;
-        let row = indices((row, given.row, nnz))?;
+        let values = at.field("values").required(given.values, nnz)?;
+        let col_start = given.indices(at, "col_start", given.col_start, columns)?;
+        let row = given.indices(at, "row", given.row, nnz)?;
         let matrix = SparseMatrix { size, col_start, row, values, index_base, triangle };
         // Before other indices: a wrong index base is most likely that of all of them.
-        matrix.check_col_start().map_err(|error| Failure::from_error(error, |_| position))?;
+        matrix.check_col_start().map_err(refused(|_| at.position()))?;
         Ok((given, matrix))
     }
-}
-
-/// Numbers counted from `base`, counted from 0.
-pub(super) fn shifted(
-    position: i32,
-    name: &str,
-    values: &[i64],
-    base: i64,
-) -> Result<Vec<usize>, Failure> {
-    let shift = |(i, &value): (usize, &i64)| {
-        value.checked_sub(base).and_then(|value| usize::try_from(value).ok()).ok_or_else(|| {
-            let place = entry(name, [i]);
-            Failure::argument(position, format!("{place} is {value}, less than {base}"))
-        })
-    };
-    values.iter().enumerate().map(shift).collect()
 }

@@ -104,10 +104,9 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
 const CAPACITY: usize = 512;
 
 thread_local! {
-    // A fixed buffer: a pointer to it stays valid while a later call in the same printf writes.
-    static LAST: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
-    // The sentence as Fortran counts.
-    static FROM_ONE: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
+    // The sentence as C counts, and as Fortran does. Fixed buffers: a pointer to one stays valid while a later call in
+    // the same printf writes.
+    static LAST: RefCell<[Sentence; 2]> = const { RefCell::new([Sentence::EMPTY; 2]) };
     // The sentence of the last panic, which may be caught inside a call that then takes another way.
     #[cfg(c_library)]
     static PANIC: RefCell<Sentence> = const { RefCell::new(Sentence::EMPTY) };
@@ -134,8 +133,8 @@ impl Sentence {
 /// Keeps what happened for `signorini_last_error` and for SGMESG.
 pub(super) fn remember(message: impl Into<Message>) {
     let message = message.into();
-    LAST.with_borrow_mut(|sentence| sentence.set(&message));
-    FROM_ONE.with_borrow_mut(|sentence| sentence.set(&message.counted_from_one()));
+    let from_one = message.counted_from_one();
+    LAST.with_borrow_mut(|[c, fortran]| (c.set(&message), fortran.set(&from_one)));
 }
 
 /// True if a host should read the sentence of a result: why it is no solution, or the remarks on one.
@@ -145,17 +144,14 @@ pub(super) fn is_told(solution: &Solution) -> bool {
 
 /// A sentence without indices: it needs no memory.
 pub(super) fn remember_plain(sentence: &str) {
-    LAST.with_borrow_mut(|last| last.set(sentence));
-    FROM_ONE.with_borrow_mut(|last| last.set(sentence));
+    LAST.with_borrow_mut(|last| last.iter_mut().for_each(|last| last.set(sentence)));
 }
 
 /// Does work that leaves the sentence of the call before as it is.
 pub(super) fn keeping_sentence(work: impl FnOnce()) {
-    let kept = [&LAST, &FROM_ONE].map(|place| place.with_borrow(|sentence| *sentence));
+    let kept = LAST.with_borrow(|last| *last);
     work();
-    for (place, sentence) in [&LAST, &FROM_ONE].into_iter().zip(kept) {
-        place.set(sentence);
-    }
+    LAST.set(kept);
 }
 
 /// Keeps the sentence of a panic, until it is told.
@@ -167,15 +163,13 @@ pub(super) fn note_panic(message: &str) {
 /// A panic has ended the call.
 #[cfg(c_library)]
 pub(super) fn tell_panic() {
-    let noted = PANIC.with_borrow(|sentence| *sentence);
-    [&LAST, &FROM_ONE].into_iter().for_each(|place| place.set(noted));
+    LAST.set([PANIC.with_borrow(|sentence| *sentence); 2]);
 }
 
 /// The sentence of the last call on this thread, as Fortran counts.
 pub(super) fn last_counted_from_one() -> String {
-    FROM_ONE.with_borrow(|sentence| {
-        String::from_utf8_lossy(&sentence.text[..sentence.used]).into_owned()
-    })
+    let [_, Sentence { text, used }] = LAST.with_borrow(|last| *last);
+    String::from_utf8_lossy(&text[..used]).into_owned()
 }
 
 /// Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
@@ -183,5 +177,5 @@ pub(super) fn last_counted_from_one() -> String {
 /// at most 511 bytes, never NULL. The text belongs to the thread, until its next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
-    LAST.with_borrow(|sentence| sentence.text.as_ptr().cast())
+    LAST.with_borrow(|[c, _]| c.text.as_ptr().cast())
 }

@@ -1,8 +1,7 @@
 //! The structures by which a host hands over surfaces and obstacles.
 
-use super::args::{Arrays, size};
-use super::guard::Failure;
-use super::sparse::shifted;
+use super::args::At;
+use super::guard::Outcome;
 use crate::surface::{Faces, Obstacle};
 
 /// A half space, in 2D a half plane.
@@ -75,39 +74,30 @@ pub(super) enum Rigid<'a> {
 
 impl SignoriniFaces {
     /// Start and nodes of the faces, counted from 0.
-    pub(super) fn read(
-        arrays: &mut Arrays<'_>,
-        (position, name): (i32, &str),
-        pointer: *const Self,
-        base: i64,
-    ) -> Result<[Vec<usize>; 2], Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
-        let given = arrays.whole(position, name, pointer)?;
-        let count = size(position, &format!("{name}: count"), given.count)?;
+    pub(super) fn read(at: At<'_>, pointer: *const Self, base: i64) -> Outcome<[Vec<usize>; 2]> {
+        let given = at.whole(pointer)?;
+        let count = at.field("count").size(given.count)?;
+        let too_many = || at.refuse_part(format!("{count} faces are too many"));
         let start = if given.start.is_null() {
-            let each = size(position, &format!("{name}: face_nodes"), given.face_nodes.into())?;
+            let each = at.field("face_nodes").size(given.face_nodes.into())?;
             if count > 0 && each == 0 {
-                return refuse(format!(
-                    "{name}: start is NULL and face_nodes is 0: set one of them"
-                ));
+                return at.refuse_part("start is NULL and face_nodes is 0: set one of them");
             }
             if count.checked_mul(each).is_none_or(|nodes| isize::try_from(nodes).is_err()) {
-                return refuse(format!("{name}: {count} faces are too many"));
+                return too_many();
             }
             (0..=count).map(|face| face * each).collect()
         } else {
             if given.face_nodes != 0 {
-                return refuse(format!("{name}: start is given, and face_nodes too: set it to 0"));
+                return at.refuse_part("start is given, and face_nodes too: set it to 0");
             }
-            let Some(entries) = count.checked_add(1) else {
-                return refuse(format!("{name}: {count} faces are too many"));
-            };
-            let start = arrays.required(position, "start", given.start, entries)?;
-            shifted(position, &format!("{name}: start"), start, base)?
+            let Some(entries) = count.checked_add(1) else { return too_many() };
+            let start = at.named("start").required(given.start, entries)?;
+            at.field("start").shifted(start, base)?
         };
         // The last start tells the number of nodes.
-        let nodes = arrays.required(position, "nodes", given.nodes, start[count])?;
-        Ok([start, shifted(position, &format!("{name}: nodes"), nodes, base)?])
+        let nodes = at.named("nodes").required(given.nodes, start[count])?;
+        Ok([start, at.field("nodes").shifted(nodes, base)?])
     }
 
     pub(super) fn view([start, nodes]: &[Vec<usize>; 2]) -> Faces<'_> {
@@ -116,26 +106,21 @@ impl SignoriniFaces {
 }
 
 impl SignoriniObstacle {
-    pub(super) fn read<'h>(
-        arrays: &mut Arrays<'h>,
-        position: i32,
+    pub(super) fn read(
+        at: At<'_>,
         dim: usize,
         base: i64,
         pointer: *const Self,
-    ) -> Result<Rigid<'h>, Failure> {
-        let given = arrays.whole(position, "obstacle", pointer)?;
+    ) -> Outcome<Rigid<'_>> {
+        let given = at.whole(pointer)?;
         if given.kind == SIGNORINI_OBSTACLE_FACES {
-            return given.mesh(arrays, position, dim, base);
+            return given.mesh(at, dim, base);
         }
-        Ok(Rigid::Shape(given.shape((position, "obstacle"), dim)?))
+        Ok(Rigid::Shape(given.shape(at, dim)?))
     }
 
     /// A shape that is no mesh.
-    pub(super) fn shape(
-        &self,
-        (position, name): (i32, &str),
-        dim: usize,
-    ) -> Result<Obstacle, Failure> {
+    pub(super) fn shape(&self, at: At<'_>, dim: usize) -> Outcome<Obstacle> {
         let in_dim = |mut v: [f64; 3]| {
             v[dim..].fill(0.0);
             v
@@ -155,32 +140,20 @@ impl SignoriniObstacle {
                 Obstacle::Torus { centre, axis, radius, ring, hollow }
             }
             SIGNORINI_OBSTACLE_FACES => {
-                let message = format!("{name}: faces are no shape that gaps are measured to");
-                return Err(Failure::argument(position, message));
+                return at.refuse_part("faces are no shape that gaps are measured to");
             }
-            other => {
-                let message = format!("{name}: there is no kind {other}");
-                return Err(Failure::argument(position, message));
-            }
+            other => return at.refuse_part(format!("there is no kind {other}")),
         };
         Ok(shape)
     }
 
-    fn mesh<'h>(
-        &self,
-        arrays: &mut Arrays<'h>,
-        position: i32,
-        dim: usize,
-        base: i64,
-    ) -> Result<Rigid<'h>, Failure> {
-        let nodes = size(position, "obstacle: nodes", self.nodes)?;
+    fn mesh<'a>(&self, at: At<'a>, dim: usize, base: i64) -> Outcome<Rigid<'a>> {
+        let nodes = at.field("nodes").size(self.nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
-            let message = format!("obstacle: nodes is {nodes}, too large");
-            return Err(Failure::argument(position, message));
+            return at.refuse_part(format!("nodes is {nodes}, too large"));
         };
-        let name = "obstacle: coordinates";
-        let coordinates = arrays.required(position, name, self.coordinates, length)?;
-        let faces = SignoriniFaces::read(arrays, (position, "obstacle: faces"), self.faces, base)?;
+        let coordinates = at.field("coordinates").required(self.coordinates, length)?;
+        let faces = SignoriniFaces::read(at.named("obstacle: faces"), self.faces, base)?;
         Ok(Rigid::Faces(coordinates, faces))
     }
 }

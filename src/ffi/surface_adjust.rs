@@ -1,7 +1,7 @@
 //! Slave nodes that move onto the other side, once.
 
 use super::args::c_entry;
-use super::guard::Failure;
+use super::guard::refused;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
 use crate::monitor::Monitor;
@@ -21,17 +21,13 @@ pub unsafe extern "C" fn signorini_surface_adjust(
     coordinates: *mut f64,
 ) -> i32 {
     c_entry!(|arrays| {
-        let contact = arrays.handle(1, "contact", contact)?;
+        let contact = arrays.at(1, "contact").handle(contact)?;
         let length = contact.found.dim * contact.nodes;
-        let place = arrays.output(3, "coordinates", coordinates, length)?;
+        let place = arrays.at(3, "coordinates").output(coordinates, length)?;
         let mut moved = place.read();
         let monitor = &mut Monitor::new(&Settings::default(), None);
-        contact.found.adjust(within, &mut moved, monitor).map_err(|error| {
-            Failure::from_error(
-                error,
-                |argument| if argument == Argument::Settings { 2 } else { 3 },
-            )
-        })?;
+        let position = |argument| if argument == Argument::Settings { 2 } else { 3 };
+        contact.found.adjust(within, &mut moved, monitor).map_err(refused(position))?;
         place.write(&moved);
         Ok(0)
     })

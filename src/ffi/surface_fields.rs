@@ -1,8 +1,10 @@
 //! Pressure, traction, clearance and slip of pairs from surfaces, and their resultant.
 
+use std::ptr::null;
+
 use super::args::{Arrays, c_entry};
-use super::guard::Failure;
-use super::structures::{Structure, check_reserved};
+use super::guard::{Outcome, refused};
+use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
 use crate::surface::{NodalFields, PairResults};
@@ -76,27 +78,26 @@ pub unsafe extern "C" fn signorini_surface_fields(
     fields: *const SignoriniContactFields,
 ) -> i32 {
     c_entry!(|arrays| {
-        let contact = arrays.handle(1, "contact", contact)?;
-        let results = pair_results(arrays, contact, (2, gap), (3, slip0), (4, d), (5, F))?;
-        let count = contact.arrays.count;
-        let state = arrays.optional(6, "state", state, count)?;
-        let given = arrays.whole(7, "fields", fields)?;
-        check_reserved(7, "fields", given.reserved)?;
+        let contact = arrays.at(1, "contact").handle(contact)?;
+        let results = pair_results(arrays, contact, [2, 3, 4, 5], [gap, slip0, d, F])?;
+        let (count, at_state) = (contact.arrays.count, arrays.at(6, "state"));
+        let state = at_state.optional(state, count)?;
+        let at = arrays.at(7, "fields");
+        let given = at.whole(fields)?;
+        at.check_reserved(given.reserved)?;
         if state.is_none() && !given.state.is_null() && count > 0 {
-            return Err(Failure::argument(6, "state is NULL, but fields->state is not"));
+            return at_state.refuse("is NULL, but fields->state is not");
         }
         let (nodes, dim) = (contact.nodes, contact.found.dim);
-        let mut out =
-            |name, pointer, each: usize| arrays.optional_output(7, name, pointer, each * nodes);
         let places = [
-            out("pressure", given.pressure, 1)?,
-            out("traction", given.traction, dim)?,
-            out("clearance", given.clearance, 1)?,
-            out("slip", given.slip, dim)?,
+            at.named("pressure").optional_output(given.pressure, nodes)?,
+            at.named("traction").optional_output(given.traction, dim * nodes)?,
+            at.named("clearance").optional_output(given.clearance, nodes)?,
+            at.named("slip").optional_output(given.slip, dim * nodes)?,
         ];
-        let states = arrays.optional_output(7, "state", given.state, nodes)?;
+        let states = at.named("state").optional_output(given.state, nodes)?;
         arrays.check_overlap()?;
-        let found = contact.found.fields(&results).map_err(wrong)?;
+        let found = contact.found.fields(&results).map_err(refused(position))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
             scatter(nodes, values, |at, of_node| place.part(at, of_node.len()).write(of_node));
@@ -124,14 +125,13 @@ pub unsafe extern "C" fn signorini_surface_resultant(
     resultant: *mut SignoriniResultant,
 ) -> i32 {
     c_entry!(|arrays| {
-        let contact = arrays.handle(1, "contact", contact)?;
-        let no_gap = std::ptr::null();
-        let results = pair_results(arrays, contact, (1, no_gap), (2, slip0), (3, d), (4, F))?;
+        let contact = arrays.at(1, "contact").handle(contact)?;
+        let results = pair_results(arrays, contact, [1, 2, 3, 4], [null(), slip0, d, F])?;
         let dim = contact.found.dim;
         let origin = [0.0; 3];
-        let point = arrays.optional(5, "point", point, dim)?.unwrap_or(&origin[..dim]);
-        let resultant = arrays.out_structure(6, "resultant", resultant)?;
-        let sums = contact.found.resultant(&results, point).map_err(wrong)?;
+        let point = arrays.at(5, "point").optional(point, dim)?.unwrap_or(&origin[..dim]);
+        let resultant = arrays.at(6, "resultant").out_structure(resultant)?;
+        let sums = contact.found.resultant(&results, point).map_err(refused(position))?;
         let told = SignoriniResultant {
             struct_size: size_of::<SignoriniResultant>() as u32,
             reserved: 0,
@@ -145,32 +145,30 @@ pub unsafe extern "C" fn signorini_surface_resultant(
     })
 }
 
-/// The results of a host, each with its position.
-pub(super) fn pair_results<'h>(
-    arrays: &mut Arrays<'h>,
+/// The results of a host: gap, slip0, d and F, with their positions.
+pub(super) fn pair_results<'a>(
+    arrays: &'a Arrays,
     contact: &SignoriniSurfacePairs,
-    (at_gap, gap): (i32, *const f64),
-    (at_slip0, slip0): (i32, *const f64),
-    (at_d, d): (i32, *const f64),
-    (at_force, force): (i32, *const f64),
-) -> Result<PairResults<'h>, Failure> {
+    positions: [i32; 4],
+    [gap, slip0, d, force]: [*const f64; 4],
+) -> Outcome<PairResults<'a>> {
     let (pairs, dim) = (contact.arrays.count, contact.found.dim);
     Ok(PairResults {
-        gap: arrays.optional(at_gap, "gap", gap, pairs)?,
-        reference_slip: arrays.optional(at_slip0, "slip0", slip0, (dim - 1) * pairs)?,
-        d: arrays.required(at_d, "d", d, dim * pairs)?,
-        force: arrays.required(at_force, "F", force, dim * pairs)?,
+        gap: arrays.at(positions[0], "gap").optional(gap, pairs)?,
+        reference_slip: arrays.at(positions[1], "slip0").optional(slip0, (dim - 1) * pairs)?,
+        d: arrays.at(positions[2], "d").required(d, dim * pairs)?,
+        force: arrays.at(positions[3], "F").required(force, dim * pairs)?,
     })
 }
 
 /// All lengths are those of the pairs, so that no argument is left to be wrong.
-pub(super) fn wrong(error: crate::error::Error) -> Failure {
-    Failure::from_error(error, |argument| match argument {
+pub(super) fn position(argument: Argument) -> i32 {
+    match argument {
         Argument::Gap => 2,
         Argument::ReferenceSlip => 3,
         Argument::Start => 4,
         _ => 5,
-    })
+    }
 }
 
 /// Hands over the values of each of some nodes, with their place among those of all nodes.

@@ -1,21 +1,21 @@
 //! Contact zones with names in one set of pairs, and a table of what they carry.
 
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 use std::ops::Range;
-use std::ptr;
+use std::ptr::null;
 
 use libc::c_char;
 
-use super::args::{Arrays, c_entry, size};
-use super::guard::{self, Failure};
+use super::args::{Arrays, c_entry};
+use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::numbers::Numbered;
-use super::surface_fields::{pair_results, wrong};
+use super::surface_fields::{pair_results, position};
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::error::index;
 use crate::law::State;
 use crate::problem::Law;
-use crate::surface::{ContactZone, Faces, ZoneSums, join_zones, summary_of_zones};
+use crate::surface::{ContactZone, Faces, join_zones, summary_of_zones};
 
 /// A contact zone for signorini_surface_join.
 #[repr(C)]
@@ -59,9 +59,9 @@ pub unsafe extern "C" fn signorini_surface_join(
     joined: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(3, "joined", joined)?;
-        let count = size(1, "n_zones", n_zones)?;
-        let given = arrays.all(ZONES, "zones", zones, count)?;
+        let place = arrays.at(3, "joined").out_pointer(joined)?;
+        let at_count = arrays.at(1, "n_zones");
+        let given = arrays.at(ZONES, "zones").all(zones, at_count.size(n_zones)?)?;
         let zones: Vec<Zone<'_>> = given
             .into_iter()
             .enumerate()
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn signorini_surface_join(
             .collect::<Result<_, _>>()?;
         guard::reserve(zones.iter().map(|zone| zone.contact.bytes()).sum())?;
         let Some(first) = zones.first() else {
-            return Err(Failure::argument(1, "n_zones is 0, there must be a zone"));
+            return at_count.refuse("is 0, there must be a zone");
         };
         let like_first = |zone: &Zone<'_>| {
             let (own, other) = (zone.contact, first.contact);
@@ -85,8 +85,11 @@ pub unsafe extern "C" fn signorini_surface_join(
             ));
         }
         let parts: Vec<ContactZone<'_>> = zones.iter().map(Zone::part).collect();
-        let found = join_zones(&parts).map(|found| (found, first.contact, joined_zones(&zones)));
-        place.fill(found, |_| ZONES)
+        let joined = join_zones(&parts).map(|found| {
+            let (nodes, numbering) = (first.contact.nodes, first.contact.numbering.clone());
+            SignoriniSurfacePairs::new(found, nodes, numbering, joined_zones(&zones))
+        });
+        place.fill(joined, |_| ZONES)
     })
 }
 
@@ -110,21 +113,25 @@ pub unsafe extern "C" fn signorini_surface_table(
     size: i64,
 ) -> i32 {
     c_entry!(|arrays| {
-        let joined = arrays.handle(1, "joined", joined)?;
-        let none = ptr::null();
-        let results = pair_results(arrays, joined, (1, none), (1, none), (2, d), (3, F))?;
-        let state = arrays.required(4, "state", state, joined.arrays.count)?;
+        let joined = arrays.at(1, "joined").handle(joined)?;
+        let results = pair_results(arrays, joined, [1, 1, 2, 3], [null(), null(), d, F])?;
+        let state = arrays.at(4, "state").required(state, joined.arrays.count)?;
         guard::reserve(joined.bytes())?;
-        let length = super::args::size(6, "size", size)?;
+        let at_size = arrays.at(6, "size");
+        let length = at_size.size(size)?;
         if length == 0 {
-            return Err(Failure::argument(6, "size is 0, it must be at least 1"));
+            return at_size.refuse("is 0, it must be at least 1");
         }
-        let text = arrays.output(5, "text", text.cast::<u8>(), length)?;
+        let text = arrays.at(5, "text").output(text.cast::<u8>(), length)?;
         arrays.check_overlap()?;
-        let mut table = head();
+        let mut table = String::new();
+        let forces = ["force x", "force y", "force z", "area", "pressure"];
+        add_row(&mut table, "zone", ["pairs", "open", "slip", "stick"], forces);
         for (name, pairs) in joined.zones() {
-            let sums = joined.found.sums_of(pairs.clone(), &results).map_err(wrong)?;
-            add_row(&mut table, name, &state[pairs], &sums);
+            let sums = joined.found.sums_of(pairs.clone(), &results).map_err(refused(position))?;
+            let [x, y, z] = sums.resultant.force;
+            let numbers = [x, y, z, sums.resultant.pressed_area, sums.largest_pressure];
+            add_row(&mut table, name, counts(&state[pairs]), numbers.map(scientific));
         }
         let fitting = (0..length).rev().find(|&end| table.is_char_boundary(end.min(table.len())));
         let mut bytes = table.as_bytes()[..fitting.unwrap_or(0).min(table.len())].to_vec();
@@ -137,31 +144,17 @@ pub unsafe extern "C" fn signorini_surface_table(
 /// Characters of a name in the table, at least.
 const NAME: usize = 16;
 
-fn head() -> String {
-    format!(
-        "{:NAME$} {:>8} {:>8} {:>8} {:>8} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
-        "zone",
-        "pairs",
-        "open",
-        "slip",
-        "stick",
-        "force x",
-        "force y",
-        "force z",
-        "area",
-        "pressure"
-    )
-}
-
-fn add_row(table: &mut String, name: &str, state: &[i32], sums: &ZoneSums) {
-    let count = |wanted: State| state.iter().filter(|&&own| own == wanted.number()).count();
-    let counts = [state.len(), count(State::Open), count(State::Slip), count(State::Stick)];
-    let [x, y, z] = sums.resultant.force;
-    let numbers = [x, y, z, sums.resultant.pressed_area, sums.largest_pressure];
+fn add_row(table: &mut String, name: &str, counts: [impl Display; 4], numbers: [impl Display; 5]) {
     let _ = write!(table, "{name:NAME$}");
     counts.iter().for_each(|count| _ = write!(table, " {count:>8}"));
-    numbers.iter().for_each(|number| _ = write!(table, " {:>12}", scientific(*number)));
+    numbers.iter().for_each(|number| _ = write!(table, " {number:>12}"));
     table.push('\n');
+}
+
+/// How many pairs there are, and how many are open, slip and stick.
+fn counts(states: &[i32]) -> [usize; 4] {
+    let count = |wanted: State| states.iter().filter(|&&own| own == wanted.number()).count();
+    [states.len(), count(State::Open), count(State::Slip), count(State::Stick)]
 }
 
 /// A number as `printf` writes it by `%.4e`.
@@ -182,24 +175,22 @@ struct Zone<'h> {
 }
 
 impl<'h> Zone<'h> {
-    fn read(
-        arrays: &mut Arrays<'h>,
-        number: usize,
-        given: &SignoriniContactZone,
-    ) -> Result<Self, Failure> {
+    fn read(arrays: &'h Arrays, number: usize, given: &SignoriniContactZone) -> Outcome<Self> {
         let of_zone = format!("zones {}", index(number));
-        let contact = arrays.handle(ZONES, &format!("{of_zone}: contact"), given.contact)?;
-        let name = arrays.text(ZONES, &format!("{of_zone}: name"), given.name)?.unwrap_or("");
+        let within = |failure: Failure| failure.within(&of_zone);
+        let contact = arrays.at(ZONES, "contact").handle(given.contact).map_err(within)?;
+        let name = arrays.at(ZONES, "name").text(given.name).map_err(within)?.unwrap_or("");
         let refuse = |what: &str| Failure::argument(ZONES, format!("{of_zone}: {what}"));
-        if !contact.zones.is_empty() {
+        if !contact.zones.names.is_empty() {
             return Err(refuse("its pairs are joined already: give those of each zone"));
         }
-        let friction =
-            law::read(arrays, ZONES, (given.law, given.friction), 1).map_err(|failure| {
+        let friction = law::read(arrays.at(ZONES, "law"), (given.law, given.friction), 1).map_err(
+            |failure| {
                 let failure = failure.explained(&of_zone);
                 // The numbers of a law stand in the structure too.
                 if failure.code() == -(ZONES + 1) { failure.at(ZONES) } else { failure }
-            })?;
+            },
+        )?;
         if Law::of_number(friction.law().number()).is_none() {
             return Err(refuse("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone"));
         }
@@ -238,7 +229,7 @@ impl SignoriniSurfacePairs {
 
     /// The zones with their pairs: one without a name of pairs that were not joined.
     fn zones(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
-        let alone = self.zones.is_empty().then_some(("contact", 0..self.arrays.count));
+        let alone = self.zones.names.is_empty().then_some(("contact", 0..self.arrays.count));
         let ends = self.zones.starts.windows(2).map(|ends| ends[0] as usize..ends[1] as usize);
         alone.into_iter().chain(self.zones.names.iter().map(String::as_str).zip(ends))
     }

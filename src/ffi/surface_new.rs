@@ -3,8 +3,8 @@
 use std::ffi::CString;
 use std::mem::take;
 
-use super::args::{Arrays, c_entry, size};
-use super::guard::Failure;
+use super::args::{Arrays, c_entry};
+use super::guard::{Outcome, refused};
 use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::structures::Structure;
@@ -77,10 +77,10 @@ pub unsafe extern "C" fn signorini_surface_pair(
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(7, "contact", contact)?;
+        let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let base = host.received.numbering.base;
-        let master = SignoriniFaces::read(arrays, (5, "master"), master, base)?;
+        let master = SignoriniFaces::read(arrays.at(5, "master"), master, base)?;
         let surfaces = Surfaces {
             dim: host.dim,
             coordinates: host.coordinates,
@@ -93,7 +93,8 @@ pub unsafe extern "C" fn signorini_surface_pair(
             let found = pair_surfaces(&surfaces, settings, monitor)?;
             Ok((found, KeptSurfaces::new((dim, coordinates), slave, master)))
         });
-        place.fill(found.map(|found| (found, host)), position)
+        let pairs = found.map(|(found, kept)| SignoriniSurfacePairs::of_host(found, kept, host));
+        place.fill(pairs, position)
     })
 }
 
@@ -118,11 +119,12 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     contact: *mut *mut SignoriniSurfacePairs,
 ) -> i32 {
     c_entry!(|arrays| {
-        let place = arrays.out_pointer(7, "contact", contact)?;
+        let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let Host { dim, coordinates, received, .. } = &host;
         let slave = SignoriniFaces::view(&host.slave);
-        let obstacle = SignoriniObstacle::read(arrays, 5, *dim, received.numbering.base, obstacle)?;
+        let (at, base) = (arrays.at(5, "obstacle"), received.numbering.base);
+        let obstacle = SignoriniObstacle::read(at, *dim, base, obstacle)?;
         let given = &received.settings;
         let host_side = (*dim, *coordinates);
         let found = received.limits.monitored(|monitor| match &obstacle {
@@ -139,7 +141,8 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
                 Ok((found, kept))
             }
         });
-        place.fill(found.map(|found| (found, host)), position)
+        let pairs = found.map(|(found, kept)| SignoriniSurfacePairs::of_host(found, kept, host));
+        place.fill(pairs, position)
     })
 }
 
@@ -171,19 +174,22 @@ struct Host<'h> {
 
 impl<'h> Host<'h> {
     fn read(
-        arrays: &mut Arrays<'h>,
+        arrays: &'h Arrays,
         (dim, nodes, coordinates): (i32, i64, *const f64),
         slave: *const SignoriniFaces,
         settings: *const SignoriniSurfaceSettings,
-    ) -> Result<Self, Failure> {
-        let dim = problem::checked_dim(dim).map_err(|error| Failure::from_error(error, |_| 1))?;
-        let nodes = size(2, "nodes", nodes)?;
+    ) -> Outcome<Self> {
+        let dim = problem::checked_dim(dim).map_err(refused(|_| 1))?;
+        let at_nodes = arrays.at(2, "nodes");
+        let nodes = at_nodes.size(nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
-            return Err(Failure::argument(2, format!("nodes is {nodes}, too large")));
+            return at_nodes.refuse(format!("is {nodes}, too large"));
         };
-        let coordinates = arrays.required(3, "coordinates", coordinates, length)?;
-        let received = SignoriniSurfaceSettings::read(arrays, 6, settings, (dim, nodes))?;
-        let slave = SignoriniFaces::read(arrays, (4, "slave"), slave, received.numbering.base)?;
+        let coordinates = arrays.at(3, "coordinates").required(coordinates, length)?;
+        let at_settings = arrays.at(6, "settings");
+        let received = SignoriniSurfaceSettings::read(at_settings, settings, (dim, nodes))?;
+        let base = received.numbering.base;
+        let slave = SignoriniFaces::read(arrays.at(4, "slave"), slave, base)?;
         Ok(Host { dim, coordinates, slave, received })
     }
 }
@@ -199,36 +205,20 @@ pub(super) struct JoinedZones {
     pub(super) summary: Message,
 }
 
-impl JoinedZones {
-    pub(super) fn is_empty(&self) -> bool {
-        self.names.is_empty()
-    }
-}
-
-impl From<((SurfacePairs, KeptSurfaces), Host<'_>)> for SignoriniSurfacePairs {
-    fn from(((found, kept), host): ((SurfacePairs, KeptSurfaces), Host<'_>)) -> Self {
+impl SignoriniSurfacePairs {
+    fn of_host(found: SurfacePairs, kept: KeptSurfaces, host: Host<'_>) -> Self {
         let summary = found.summary();
         let zones = JoinedZones { summary, ..JoinedZones::default() };
-        let of_host = (host.coordinates.len() / host.dim, host.received.numbering);
-        SignoriniSurfacePairs {
-            kept: Some(kept),
-            ..SignoriniSurfacePairs::new(found, of_host, host.slave, zones)
-        }
+        let nodes = host.coordinates.len() / host.dim;
+        let pairs = SignoriniSurfacePairs::new(found, nodes, host.received.numbering, zones);
+        SignoriniSurfacePairs { kept: Some(kept), slave_faces: host.slave, ..pairs }
     }
-}
 
-impl From<(SurfacePairs, &SignoriniSurfacePairs, JoinedZones)> for SignoriniSurfacePairs {
-    fn from((found, like, zones): (SurfacePairs, &SignoriniSurfacePairs, JoinedZones)) -> Self {
-        let of_host = (like.nodes, like.numbering.clone());
-        SignoriniSurfacePairs::new(found, of_host, [vec![0], Vec::new()], zones)
-    }
-}
-
-impl SignoriniSurfacePairs {
-    fn new(
+    /// Pairs without faces, of so many nodes of the host.
+    pub(super) fn new(
         found: SurfacePairs,
-        (nodes, numbering): (usize, Numbering),
-        slave_faces: [Vec<usize>; 2],
+        nodes: usize,
+        numbering: Numbering,
         zones: JoinedZones,
     ) -> Self {
         let base = numbering.base;
@@ -271,16 +261,14 @@ impl SignoriniSurfacePairs {
             _indices: indices,
             nodes,
             numbering,
-            slave_faces,
+            slave_faces: [vec![0], Vec::new()],
             zones,
             arrays,
             found,
             kept: None,
         }
     }
-}
 
-impl SignoriniSurfacePairs {
     /// 0 or 1: from where the host counts.
     pub(super) fn base(&self) -> i64 {
         self.numbering.base

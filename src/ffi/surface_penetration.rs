@@ -1,7 +1,7 @@
 //! The check after a solution: what has passed through the other side without a pair.
 
 use super::args::c_entry;
-use super::guard::Failure;
+use super::guard::refused;
 use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::monitor::Monitor;
@@ -46,21 +46,18 @@ pub unsafe extern "C" fn signorini_surface_penetration(
     penetration: *mut SignoriniPenetration,
 ) -> i32 {
     c_entry!(|arrays| {
-        let contact = arrays.handle(1, "contact", contact)?;
+        let at = arrays.at(1, "contact");
+        let contact = at.handle(contact)?;
         let Some(kept) = &contact.kept else {
-            return Err(Failure::argument(
-                1,
-                "contact is joined of zones: ask the pairs of each zone",
-            ));
+            return at.refuse("is joined of zones: ask the pairs of each zone");
         };
         let (dofs, dim) = (contact.dofs(), contact.found.dim);
         let length = dofs.iter().max().map_or(0, |last| last + 1);
-        let u = arrays.required(2, "u", u, length)?;
-        let place = arrays.out_structure(3, "penetration", penetration)?;
+        let u = arrays.at(2, "u").required(u, length)?;
+        let place = arrays.at(3, "penetration").out_structure(penetration)?;
         let moved = |node: usize, axis: usize| u[dofs[dim * node + axis]];
         let monitor = &mut Monitor::new(&Settings::default(), None);
-        let found = kept.penetration(&contact.found, moved, monitor);
-        let found = found.map_err(|error| Failure::from_error(error, |_| 2))?;
+        let found = kept.penetration(&contact.found, moved, monitor).map_err(refused(|_| 2))?;
         let counted =
             |index: Option<usize>| index.map_or(-1, |index| index as i64 + contact.base());
         let told = SignoriniPenetration {

@@ -2,14 +2,12 @@
 
 use libc::c_void;
 
-use super::args::{Arrays, size};
-use super::guard::Failure;
+use super::args::{At, c_entry};
+use super::guard::Outcome;
 use super::numbers::{Numbered, numbers};
-use super::settings::{ParsedSettings, SignoriniProgressFn, WarmStart};
-use super::sparse::shifted;
-use super::structures::{self, Structure, chosen};
+use super::settings::{ParsedSettings, SignoriniProgressFn, SignoriniSettings};
+use super::structures::Structure;
 use super::surface::SignoriniObstacle;
-use crate::settings::Settings;
 use crate::surface::{NodeDofs, Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
@@ -140,99 +138,79 @@ unsafe impl Structure for SignoriniSurfaceSettings {
 impl SignoriniSurfaceSettings {
     /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates.
     pub(super) fn read(
-        arrays: &mut Arrays<'_>,
-        position: i32,
+        at: At<'_>,
         pointer: *const Self,
         (dim, nodes): (usize, usize),
-    ) -> Result<ParsedSurfaceSettings, Failure> {
-        let refuse = |message: String| Err(Failure::argument(position, message));
-        let given = arrays.copy(position, "settings", pointer)?;
-        let pairing = chosen(position, ("settings", "pairing"), given.pairing)?;
-        let normals = chosen(position, ("settings", "choice of normals"), given.normals)?;
-        let rims = chosen(position, ("settings", "choice of rims"), given.rims)?;
-        let base = structures::index_base(position, "settings", given.index_base)?;
+    ) -> Outcome<ParsedSurfaceSettings> {
+        let given = at.copy(pointer)?;
+        let pairing = at.chosen("pairing", given.pairing)?;
+        let normals = at.chosen("choice of normals", given.normals)?;
+        let rims = at.chosen("choice of rims", given.rims)?;
+        let base = at.index_base(given.index_base)?;
         let per_node = match given.dofs_per_node {
             0 => dim,
             other => usize::try_from(other).unwrap_or_default(),
         };
         if per_node < dim {
             let told = given.dofs_per_node;
-            return refuse(format!(
-                "settings: dofs_per_node is {told}, it must be 0 or at least dim {dim}"
-            ));
+            let wrong = format!("is {told}, it must be 0 or at least dim {dim}");
+            return at.field("dofs_per_node").refuse(wrong);
         }
         // The coordinates have as many entries.
-        let dofs = arrays.optional(position, "node_dofs", given.node_dofs, dim * nodes)?;
-        let listed = dofs.map(|dofs| shifted(position, "settings: node_dofs", dofs, base));
-        let listed = listed.transpose()?;
-        let search_distance = Some(given.search_distance).filter(|distance| *distance != 0.0);
-        let symmetry = given.symmetry(arrays, position)?;
-        let axisymmetric = given.axisymmetric != 0;
-        let shapes = [
-            given.shape(arrays, (position, "settings: slave_shape"), dim, given.slave_shape)?,
-            given.shape(arrays, (position, "settings: master_shape"), dim, given.master_shape)?,
-        ];
+        let dofs = at.named("node_dofs").optional(given.node_dofs, dim * nodes)?;
+        let listed = dofs.map(|dofs| at.field("node_dofs").shifted(dofs, base)).transpose()?;
+        let symmetry = given.symmetry(at)?;
         let settings = SurfaceSettings {
             pairing,
-            search_distance,
+            search_distance: Some(given.search_distance).filter(|distance| *distance != 0.0),
             symmetry,
             normals,
             rims,
-            axisymmetric,
-            shapes,
+            axisymmetric: given.axisymmetric != 0,
+            shapes: [
+                given.shape(at.named("settings: slave_shape"), dim, given.slave_shape)?,
+                given.shape(at.named("settings: master_shape"), dim, given.master_shape)?,
+            ],
             close_within: given.close_within,
             clearance: given.clearance,
         };
-        let time_limit = given.time_limit;
-        // Written so that NaN is refused.
-        if !(time_limit >= 0.0) {
-            let message = "it must be 0 (none) or a number of seconds";
-            return refuse(format!("settings: time_limit is {time_limit}, {message}"));
-        }
-        let numbering = Numbering { base, per_node, listed };
-        let limits = ParsedSettings {
-            settings: Settings { time_limit, ..Settings::default() },
-            warm_start: WarmStart::None,
-            threads: 1,
+        let limits = SignoriniSettings {
+            time_limit: given.time_limit,
             progress: given.progress,
             user: given.user,
+            ..SignoriniSettings::default_one()
         };
+        let limits = limits.parsed(at)?;
+        let numbering = Numbering { base, per_node, listed };
         Ok(ParsedSurfaceSettings { settings, numbering, limits })
     }
 
     /// The true shape of a side.
     fn shape(
         &self,
-        arrays: &mut Arrays<'_>,
-        (position, name): (i32, &str),
+        at: At<'_>,
         dim: usize,
         pointer: *const SignoriniObstacle,
-    ) -> Result<TrueShape, Failure> {
+    ) -> Outcome<TrueShape> {
         if pointer.is_null() {
             let fitted = self.fitted != 0;
             return Ok(if fitted { TrueShape::Fitted } else { TrueShape::Facets });
         }
-        let given = arrays.whole(position, name, pointer)?;
-        Ok(TrueShape::Exact(given.shape((position, name), dim)?))
+        Ok(TrueShape::Exact(at.whole(pointer)?.shape(at, dim)?))
     }
 
     /// The planes of symmetry.
-    fn symmetry(
-        &self,
-        arrays: &mut Arrays<'_>,
-        position: i32,
-    ) -> Result<Vec<SymmetryPlane>, Failure> {
-        let count = size(position, "settings: symmetry_planes", self.symmetry_planes)?;
-        let axes = "settings: symmetry_axes";
-        let axes = arrays.required(position, axes, self.symmetry_axes, count)?;
-        let places = arrays.required(position, "settings: symmetry_at", self.symmetry_at, count)?;
+    fn symmetry(&self, at: At<'_>) -> Outcome<Vec<SymmetryPlane>> {
+        let count = at.field("symmetry_planes").size(self.symmetry_planes)?;
+        let at_axes = at.field("symmetry_axes");
+        let axes = at_axes.required(self.symmetry_axes, count)?;
+        let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
         let plane = |(&axis, &at): (&i32, &f64)| {
             let counted = i64::from(axis) - i64::from(self.index_base);
-            let Ok(axis) = usize::try_from(counted) else {
-                let message = format!("settings: symmetry_axes has {axis}, there is no such axis");
-                return Err(Failure::argument(position, message));
-            };
-            Ok(SymmetryPlane { axis, at })
+            match usize::try_from(counted) {
+                Ok(axis) => Ok(SymmetryPlane { axis, at }),
+                Err(_) => at_axes.refuse(format!("has {axis}, there is no such axis")),
+            }
         };
         axes.iter().zip(places).map(plane).collect()
     }
@@ -257,6 +235,5 @@ pub unsafe extern "C" fn signorini_surface_settings_default(
     settings: *mut SignoriniSurfaceSettings,
     struct_size: u32,
 ) -> i32 {
-    // SAFETY: the caller's structure has `struct_size` bytes, as the header demands.
-    unsafe { structures::fill("settings", settings, struct_size) }
+    c_entry!(|arrays| { arrays.at(1, "settings").fill(settings, struct_size) })
 }

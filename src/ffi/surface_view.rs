@@ -87,8 +87,8 @@ pub unsafe extern "C" fn signorini_surface_view(
     data: *mut SignoriniSurfaceData,
 ) -> i32 {
     c_entry!(|arrays| {
-        let shown = arrays.handle(1, "contact", contact)?.shown();
-        arrays.out_structure(2, "data", data)?.write(0, &shown);
+        let shown = arrays.at(1, "contact").handle(contact)?.shown();
+        arrays.at(2, "data").out_structure(data)?.write(0, &shown);
         Ok(0)
     })
 }

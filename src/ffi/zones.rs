@@ -1,8 +1,7 @@
 //! Contact zones with their solutions, as fields at all nodes of a mesh.
 
-use super::args::{Arrays, size};
-use super::guard::Failure;
-use super::structures::check_reserved;
+use super::args::{Arrays, At};
+use super::guard::{Failure, Outcome, refused};
 use super::surface_fields::{pair_results, scatter};
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::index;
@@ -51,30 +50,31 @@ impl Zones {
     /// The fields of the caller's zones on a mesh of so many dimensions and nodes; `None` of no
     /// zones.
     pub(super) fn read(
-        arrays: &mut Arrays<'_>,
+        arrays: &Arrays,
         (count, zones): (i64, *const SignoriniZone),
         (dim, nodes): (usize, usize),
-    ) -> Result<Option<Self>, Failure> {
-        let count = size(ZONES - 1, "n_zones", count)?;
-        let given = arrays.all(ZONES, "zones", zones, count)?;
+    ) -> Outcome<Option<Self>> {
+        let count = arrays.at(ZONES - 1, "n_zones").size(count)?;
+        let at = arrays.at(ZONES, "zones");
         let mut all: Option<Zones> = None;
-        for (number, zone) in given.into_iter().enumerate() {
-            let refuse = |message: &str| {
-                Err(Failure::argument(ZONES, format!("zones {}: {message}", index(number))))
-            };
-            check_reserved(ZONES, &format!("zones {}", index(number)), zone.reserved)?;
-            let name = format!("zones {}: contact", index(number));
-            let contact = arrays.handle(ZONES, &name, zone.contact)?;
+        for (number, zone) in at.all(zones, count)?.into_iter().enumerate() {
+            let refuse = |message: String| at.refuse(format!("{}: {message}", index(number)));
+            let within = |failure: Failure| failure.within(&format!("zones {}", index(number)));
+            if zone.reserved != 0 {
+                return refuse(format!("reserved is {}, it must be 0", zone.reserved));
+            }
+            let contact = at.named("contact").handle(zone.contact).map_err(within)?;
             let of = (contact.found.dim, contact.nodes);
             if of != (dim, nodes) {
                 let (of_dim, of_nodes) = of;
-                return refuse(&format!(
+                return refuse(format!(
                     "its pairs are of {of_nodes} nodes of dim {of_dim}, the mesh has {nodes} nodes of dim {dim}"
                 ));
             }
             let all = all.get_or_insert_with(|| Zones::empty(contact));
             if contact.dofs() != all.dofs {
-                return refuse("it numbers degrees of freedom otherwise than the first zone");
+                let wrong = "it numbers degrees of freedom otherwise than the first zone";
+                return refuse(wrong.into());
             }
             all.add(arrays, contact, zone)?;
         }
@@ -94,16 +94,14 @@ impl Zones {
     /// Adds the fields of a zone.
     fn add(
         &mut self,
-        arrays: &mut Arrays<'_>,
+        arrays: &Arrays,
         contact: &SignoriniSurfacePairs,
         zone: &SignoriniZone,
-    ) -> Result<(), Failure> {
-        let [gap, slip0, d, force] = [zone.gap, zone.slip0, zone.d, zone.F];
-        let at = |array| (ZONES, array);
-        let results = pair_results(arrays, contact, at(gap), at(slip0), at(d), at(force))?;
-        let state = arrays.optional(ZONES, "state", zone.state, contact.arrays.count)?;
-        let found = contact.found.fields(&results);
-        let found = found.map_err(|error| Failure::from_error(error, |_| ZONES))?;
+    ) -> Outcome<()> {
+        let given = [zone.gap, zone.slip0, zone.d, zone.F];
+        let results = pair_results(arrays, contact, [ZONES; 4], given)?;
+        let state = arrays.at(ZONES, "state").optional(zone.state, contact.arrays.count)?;
+        let found = contact.found.fields(&results).map_err(refused(|_| ZONES))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (all, values) in self.reals.iter_mut().zip([pressure, clearance, traction, slip]) {
             scatter(nodes, values, |at, of_node| {
@@ -119,13 +117,9 @@ impl Zones {
     }
 
     /// Displacements of all nodes, from those of the host's degrees of freedom.
-    pub(super) fn displacement(
-        &self,
-        arrays: &mut Arrays<'_>,
-        u: *const f64,
-    ) -> Result<Option<Vec<f64>>, Failure> {
+    pub(super) fn displacement(&self, at: At<'_>, u: *const f64) -> Outcome<Option<Vec<f64>>> {
         let entries = self.dofs.iter().max().map_or(0, |last| last + 1);
-        let u = arrays.optional(3, "u", u, entries)?;
+        let u = at.optional(u, entries)?;
         Ok(u.map(|u| self.dofs.iter().map(|dof| u[*dof]).collect()))
     }
 

@@ -1,41 +1,34 @@
-//! Scalars and arrays by reference in both widths, settings of three scalars, and states.
+//! Scalars and arrays by reference in both widths, settings of three scalars, states, and texts.
 
+use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-use libc::c_void;
+use libc::c_char;
 
-use super::super::args::Arrays;
-use super::super::guard::{self, Failure};
+use super::super::args::{Arrays, Output};
+use super::super::guard::{self, Failure, Outcome};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use super::super::structures::Structure;
+use crate::error::entry;
 use crate::problem::checked_dim;
 use crate::settings::check_tolerance;
 
 /// A Fortran INTEGER.
-pub(super) trait Integer: Copy {
+pub(super) trait Integer: Copy + Into<i64> {
     /// Its size.
-    const BYTES: i32;
-    fn wide(self) -> i64;
+    const BYTES: i32 = size_of::<Self>() as i32;
     /// The nearest number of this width.
     fn nearest(value: i64) -> Self;
 }
 
 impl Integer for i32 {
-    const BYTES: i32 = 4;
-    fn wide(self) -> i64 {
-        i64::from(self)
-    }
     fn nearest(value: i64) -> Self {
         value.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
     }
 }
 
 impl Integer for i64 {
-    const BYTES: i32 = 8;
-    fn wide(self) -> i64 {
-        self
-    }
     fn nearest(value: i64) -> Self {
         value
     }
@@ -49,7 +42,7 @@ impl Integer for i64 {
 pub(super) unsafe fn run<I: Integer>(
     info: *mut I,
     positions: &[i32],
-    body: impl FnOnce() -> Result<i32, Failure>,
+    body: impl FnOnce() -> Outcome<i32>,
 ) {
     let status = guard::call(|| {
         let status = body()?;
@@ -88,146 +81,172 @@ pub(super) unsafe fn widen<I: Integer>(state: *mut I, pairs: i64) {
     }
 }
 
-/// An argument by reference that is read. It comes from the caller of an entry alone: NULL, or as many values as
-/// include/signorini.inc demands, of which the first may be unaligned, as for [`write`].
-#[derive(Clone, Copy)]
-#[repr(transparent)]
-pub(super) struct Given<T>(*const T);
-
-impl<T: Copy> Given<T> {
-    /// # Safety
-    /// NULL or a value of the caller of an entry.
-    pub(super) unsafe fn of(place: *const T) -> Self {
-        Given(place)
+/// Puts a sentence into a CHARACTER, padded with blanks.
+///
+/// # Safety
+/// `text` is NULL or has `length` characters.
+pub(super) unsafe fn fill(text: *mut c_char, length: i64, sentence: &str) {
+    // No CHARACTER for a sentence is longer: such a length is refused, not written to.
+    let Some(length) = usize::try_from(length).ok().filter(|n| *n <= i32::MAX as usize) else {
+        return;
+    };
+    if text.is_null() {
+        return;
     }
-
-    /// The value of a scalar.
-    pub(super) fn read(self, position: i32, name: &str) -> Result<T, Failure> {
-        if self.0.is_null() {
-            return Err(Failure::argument(position, format!("{name} is NULL")));
-        }
-        // SAFETY: not NULL, and a value by the caller's contract.
-        Ok(unsafe { self.0.read_unaligned() })
+    let bytes = sentence.bytes().chain(std::iter::repeat(b' ')).take(length);
+    for (i, byte) in bytes.enumerate() {
+        // SAFETY: i < length.
+        unsafe { text.add(i).write(byte as c_char) };
     }
 }
 
-impl<I: Integer> Given<I> {
-    /// The pointer, for a function of C.
-    pub(super) fn address(self) -> *const c_void {
-        self.0.cast()
+/// An argument by reference, with its position and its name.
+#[derive(Clone, Copy)]
+pub(super) struct Argument<P> {
+    pub(super) place: P,
+    pub(super) position: i32,
+    name: &'static str,
+}
+
+impl<P> Argument<P> {
+    /// # Safety
+    /// `place` comes from the caller of an entry: NULL, or as many values as include/signorini.inc demands, of which
+    /// the first may be unaligned, as for [`write`].
+    pub(super) unsafe fn of(place: P, position: i32, name: &'static str) -> Self {
+        Argument { place, position, name }
+    }
+
+    /// Refuses the argument: its name, and what is wrong.
+    pub(super) fn refuse<T>(self, wrong: impl Display) -> Outcome<T> {
+        Err(Failure::argument(self.position, format!("{} {wrong}", self.name)))
+    }
+
+    /// Refuses an entry of the array.
+    pub(super) fn refuse_entry<T>(self, i: i64, wrong: impl Display) -> Outcome<T> {
+        Err(Failure::argument(self.position, format!("{} {wrong}", entry(self.name, [i]))))
+    }
+}
+
+impl<T> Argument<*mut T> {
+    /// An array of `length` entries to write.
+    pub(super) fn output(self, length: usize) -> Outcome<Output<T>> {
+        // SAFETY: the contract of `of`.
+        let arrays = unsafe { Arrays::of_call() };
+        arrays.at(self.position, self.name).output(self.place, length)
+    }
+
+    /// The argument, to be read.
+    pub(super) fn constant(self) -> Argument<*const T> {
+        Argument { place: self.place.cast_const(), position: self.position, name: self.name }
+    }
+}
+
+impl<T: Copy> Argument<*const T> {
+    /// The value of a scalar.
+    pub(super) fn read(self) -> Outcome<T> {
+        if self.place.is_null() {
+            return self.refuse("is NULL");
+        }
+        // SAFETY: not NULL, and a value by the contract of `of`.
+        Ok(unsafe { self.place.read_unaligned() })
+    }
+}
+
+impl<I: Integer> Argument<*const I> {
+    /// The value of a scalar.
+    pub(super) fn wide(self) -> Outcome<i64> {
+        self.read().map(I::into)
     }
 
     /// An integer that chooses something.
-    pub(super) fn choice(self, position: i32, name: &str) -> Result<i32, Failure> {
-        let value = self.read(position, name)?.wide();
-        i32::try_from(value).map_err(|_| absurd::<I>(position, name, value))
+    pub(super) fn choice(self) -> Outcome<i32> {
+        let value = self.wide()?;
+        i32::try_from(value).or_else(|_| self.refuse_width(value))
+    }
+
+    /// Refuses an integer that is none of this width.
+    pub(super) fn refuse_width<T>(self, value: i64) -> Outcome<T> {
+        let bytes = I::BYTES;
+        self.refuse(format!(
+            "is {value}: this entry takes integers of {bytes} bytes, were they others?"
+        ))
     }
 
     /// An integer that chooses one of several constants, which `wanted` tells.
-    pub(super) fn one_of(
-        self,
-        position: i32,
-        name: &str,
-        constants: RangeInclusive<i32>,
-        wanted: &str,
-    ) -> Result<i32, Failure> {
-        let value = self.choice(position, name)?;
+    pub(super) fn one_of(self, constants: RangeInclusive<i32>, wanted: &str) -> Outcome<i32> {
+        let value = self.choice()?;
         if constants.contains(&value) {
             return Ok(value);
         }
-        Err(Failure::argument(position, format!("{name} is {value}, it must be {wanted}")))
+        self.refuse(format!("is {value}, it must be {wanted}"))
     }
 
     /// The number of something that is in memory. A value of 2^31 or more almost certainly means that two
     /// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
     /// read far outside.
-    pub(super) fn count(self, position: i32, name: &str) -> Result<i64, Failure> {
-        let value = self.choice(position, name)?;
+    pub(super) fn count(self) -> Outcome<i64> {
+        let value = self.choice()?;
         if value < 0 {
-            let message = format!("{name} is {value}, it must not be negative");
-            return Err(Failure::argument(position, message));
+            return self.refuse(format!("is {value}, it must not be negative"));
         }
         Ok(i64::from(value))
     }
 
-    /// An integer array of `length` entries.
-    pub(super) fn slice(
-        &self,
-        position: i32,
-        name: &'static str,
-        length: i64,
-    ) -> Result<&[I], Failure> {
-        // SAFETY: the contract of `Given`.
-        unsafe { Arrays::of_call() }.required(position, name, self.0, length as usize)
+    /// What `take` makes of an integer array of `length` entries.
+    pub(super) fn entries<T>(self, length: i64, take: impl FnOnce(&[I]) -> T) -> Outcome<T> {
+        // SAFETY: the contract of `of`.
+        let arrays = unsafe { Arrays::of_call() };
+        arrays.at(self.position, self.name).required(self.place, length as usize).map(take)
     }
 
     /// A copy of an integer array in the width of the functions of C.
-    pub(super) fn numbers(
-        self,
-        position: i32,
-        name: &'static str,
-        length: i64,
-    ) -> Result<Vec<i64>, Failure> {
-        Ok(self.slice(position, name, length)?.iter().map(|value| value.wide()).collect())
+    pub(super) fn numbers(self, length: i64) -> Outcome<Vec<i64>> {
+        self.entries(length, |entries| entries.iter().map(|value| (*value).into()).collect())
     }
 
     /// NDIM.
-    pub(super) fn dimension(self, position: i32) -> Result<i32, Failure> {
-        let dim = self.choice(position, "NDIM")?;
-        let wrong = |_| Failure::argument(position, format!("NDIM is {dim}, it must be 2 or 3"));
-        checked_dim(dim).map_err(wrong)?;
+    pub(super) fn dimension(self) -> Outcome<i32> {
+        let dim = self.choice()?;
+        checked_dim(dim).or_else(|_| self.refuse(format!("is {dim}, it must be 2 or 3")))?;
         Ok(dim)
     }
 
     /// LDK, the leading dimension of a matrix of all components of pairs.
-    pub(super) fn leading(self, position: i32, (dim, pairs): (i32, i64)) -> Result<i64, Failure> {
-        let leading = self.count(position, "LDK")?;
+    pub(super) fn leading(self, (dim, pairs): (i32, i64)) -> Outcome<i64> {
+        let leading = self.count()?;
         let n = i64::from(dim) * pairs;
         if leading < n.max(1) {
-            let message = format!(
-                "LDK is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
-            );
-            return Err(Failure::argument(position, message));
+            return self.refuse(format!(
+                "is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+            ));
         }
         Ok(leading)
     }
 
     /// LAW.
-    pub(super) fn law(self, position: i32) -> Result<i32, Failure> {
+    pub(super) fn law(self) -> Outcome<i32> {
         let (first, last) = (SIGNORINI_LAW_FRICTIONLESS, LAST_LAW);
         let wanted = format!("a law of signorini.inc, from SGNOFR ({first}) to {last}");
-        self.one_of(position, "LAW", first..=last, &wanted)
+        self.one_of(first..=last, &wanted)
     }
 }
 
-pub(super) fn absurd<I: Integer>(position: i32, name: &str, value: i64) -> Failure {
-    let bytes = I::BYTES;
-    let message =
-        format!("{name} is {value}: this entry takes integers of {bytes} bytes, were they others?");
-    Failure::argument(position, message)
-}
-
-/// METHOD, TOL and MAXIT at consecutive positions; 0 stands for the default of each.
+/// METHOD, TOL and MAXIT; 0 stands for the default of each.
 pub(super) fn settings<I: Integer>(
-    first: i32,
-    method: Given<I>,
-    tol: Given<f64>,
-    maxit: Given<I>,
-) -> Result<SignoriniSettings, Failure> {
-    let methods = 0..=SIGNORINI_METHOD_PATH;
-    let method = method.one_of(first, "METHOD", methods, "0 or SGNEST (1) to SGPATH (6)")?;
-    let tolerance = tol.read(first + 1, "TOL")?;
-    let most = maxit.read(first + 2, "MAXIT")?.wide();
-    if most < 0 {
-        let message = format!("MAXIT is {most}, it must not be negative");
-        return Err(Failure::argument(first + 2, message));
-    }
+    method: Argument<*const I>,
+    tol: Argument<*const f64>,
+    maxit: Argument<*const I>,
+) -> Outcome<SignoriniSettings> {
     let mut settings = SignoriniSettings::default_one();
-    settings.method = method;
+    settings.method = method.one_of(0..=SIGNORINI_METHOD_PATH, "0 or SGNEST (1) to SGPATH (6)")?;
+    let (tolerance, most) = (tol.read()?, maxit.wide()?);
+    if most < 0 {
+        return maxit.refuse(format!("is {most}, it must not be negative"));
+    }
     if tolerance != 0.0 {
         let wrong = |message| {
             let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";
-            Failure::argument(first + 1, format!("{message}, {rest}"))
+            Failure::argument(tol.position, format!("{message}, {rest}"))
         };
         check_tolerance("TOL", tolerance).map_err(wrong)?;
         settings.tolerance = tolerance;

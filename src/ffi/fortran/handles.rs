@@ -7,26 +7,22 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::fork_lock::{HANDLES, wait_at_forks};
-use super::super::guard::Failure;
+use super::super::guard::Outcome;
 use super::super::model::SignoriniModel;
 use super::super::surface_new::SignoriniSurfacePairs;
-use super::arguments::{Given, write};
+use super::arguments::{Argument, write};
 
 /// A kind of objects.
 pub(super) trait Kind: Any + Send + Sync {
-    /// The argument that holds a number of one.
-    const NAME: &'static str;
     /// The sentence on a number that is not here goes on so.
     const NONE: &'static str;
 }
 
 impl Kind for SignoriniModel {
-    const NAME: &'static str = "HANDLE";
     const NONE: &'static str = "there is no such model";
 }
 
 impl Kind for SignoriniSurfacePairs {
-    const NAME: &'static str = "HSURF";
     const NONE: &'static str = "there are no such pairs";
 }
 
@@ -57,17 +53,16 @@ fn with_living<T>(work: impl FnOnce(&mut i64, &mut Objects) -> T) -> T {
 /// Makes an object by a function of C and puts its number into the handle, 0 if there is none.
 ///
 /// # Safety
-/// `handle` is NULL or a place of the caller; `make` puts a boxed object where it is told, if it returns 0.
+/// `make` puts a boxed object where it is told, if it returns 0.
 pub(super) unsafe fn create<T: Kind>(
-    position: i32,
-    handle: *mut i64,
-    make: impl FnOnce(*mut *mut T) -> Result<i32, Failure>,
-) -> Result<i32, Failure> {
-    if handle.is_null() {
-        return Err(Failure::argument(position, format!("{} is NULL", T::NAME)));
+    handle: Argument<*mut i64>,
+    make: impl FnOnce(*mut *mut T) -> Outcome<i32>,
+) -> Outcome<i32> {
+    if handle.place.is_null() {
+        return handle.refuse("is NULL");
     }
-    // SAFETY: by the caller's contract.
-    unsafe { write(handle, 0) };
+    // SAFETY: a place of the caller.
+    unsafe { write(handle.place, 0) };
     let mut boxed = std::ptr::null_mut();
     let status = make(&raw mut boxed)?;
     if status == 0 {
@@ -78,41 +73,37 @@ pub(super) unsafe fn create<T: Kind>(
             objects.insert(*last, object);
             *last
         });
-        // SAFETY: by the caller's contract.
-        unsafe { write(handle, number) };
+        // SAFETY: as above.
+        unsafe { write(handle.place, number) };
     }
     Ok(status)
 }
 
 /// The object of a handle, which lives on during the call even if another thread releases it.
-pub(super) fn find<T: Kind>(position: i32, handle: Given<i64>) -> Result<Arc<T>, Failure> {
-    object(position, handle.read(position, T::NAME)?)
+pub(super) fn find<T: Kind>(handle: Argument<*const i64>) -> Outcome<Arc<T>> {
+    object(handle, handle.read()?)
 }
 
-fn object<T: Kind>(position: i32, number: i64) -> Result<Arc<T>, Failure> {
+fn object<T: Kind>(handle: Argument<*const i64>, number: i64) -> Outcome<Arc<T>> {
     let found = with_living(|_, objects| objects.get(&number).cloned());
     let of_this_kind = found.and_then(|found| found.downcast().ok());
-    of_this_kind.ok_or_else(|| unknown::<T>(position, number))
+    of_this_kind.map_or_else(|| unknown::<T, _>(handle, number), Ok)
 }
 
-/// Releases the object of a handle, the first argument, which becomes 0. A handle of 0 is allowed.
-///
-/// # Safety
-/// `handle` is NULL or a number of the caller.
-pub(super) unsafe fn free<T: Kind>(handle: *mut i64) -> Result<i32, Failure> {
-    // SAFETY: by the caller's contract.
-    let number = unsafe { Given::of(handle) }.read(1, T::NAME)?;
+/// Releases the object of a handle, which becomes 0. A handle of 0 is allowed.
+pub(super) fn free<T: Kind>(handle: Argument<*mut i64>) -> Outcome<i32> {
+    let given = handle.constant();
+    let number = given.read()?;
     if number != 0 {
-        object::<T>(1, number)?;
+        object::<T>(given, number)?;
         let released = with_living(|_, objects| objects.remove(&number));
-        drop(released.ok_or_else(|| unknown::<T>(1, number))?);
+        drop(released.map_or_else(|| unknown::<T, _>(given, number), Ok)?);
     }
-    // SAFETY: by the caller's contract.
-    unsafe { write(handle, 0) };
+    // SAFETY: a place of the caller.
+    unsafe { write(handle.place, 0) };
     Ok(0)
 }
 
-fn unknown<T: Kind>(position: i32, number: i64) -> Failure {
-    let message = format!("{} is {number}, {}; is it INTEGER*8?", T::NAME, T::NONE);
-    Failure::argument(position, message)
+fn unknown<T: Kind, R>(handle: Argument<*const i64>, number: i64) -> Outcome<R> {
+    handle.refuse(format!("is {number}, {}; is it INTEGER*8?", T::NONE))
 }

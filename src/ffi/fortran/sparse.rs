@@ -2,60 +2,48 @@
 
 use std::ptr::null;
 
-use super::super::guard::Failure;
+use super::super::guard::{Failure, Outcome};
 use super::super::model::SignoriniModel;
 use super::super::model_new::signorini_model_new_sparse;
 use super::super::pairs::SignoriniPairs;
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::super::structures::Structure;
-use super::arguments::{Given, Integer, absurd, run};
+use super::arguments::{Argument, Integer, run};
 use super::handles::create;
-use crate::error::entry;
 
 entry! {
     // The function of C tells that the matrix is wrong, and not which array of it: here its values. Likewise the
     // pairs: here SLAVE.
-    sgspar_ sgspar_64_ positions [5, 7, 8, 11, 19, 19],
+    sgspar_ sgspar_64_ calls [VALUES, NFIX, FIXED, SLAVE, HANDLE, HANDLE],
     (
-        n: Given<I>,
-        nnz: Given<I>,
-        colptr: Given<I>,
-        rowind: Given<I>,
-        values: *const f64,
-        tri: Given<I>,
-        nfix: Given<I>,
-        fixed: Given<I>,
-        ndim: Given<I>,
-        npair: Given<I>,
-        slave: Given<I>,
-        nmast: Given<I>,
-        mstart: Given<I>,
-        master: Given<I>,
-        weight: *const f64,
-        normal: *const f64,
-        ntan: Given<I>,
-        tangnt: *const f64,
-        handle: *mut i64,
+        N: *const I, NNZ: *const I, COLPTR: *const I, ROWIND: *const I, VALUES: *const f64,
+        TRI: *const I, NFIX: *const I, FIXED: *const I, NDIM: *const I, NPAIR: *const I,
+        SLAVE: *const I, NMAST: *const I, MSTART: *const I, MASTER: *const I, WEIGHT: *const f64,
+        NORMAL: *const f64, NTAN: *const I, TANGNT: *const f64, HANDLE: *mut i64,
     ) {
-        create(19, handle, |model| {
-            let matrix = Matrix { n, nnz, colptr, rowind, values, tri, nfix, fixed };
-            let nodes = Nodes { slave, nmast, mstart, master, weight };
-            let pairs = (ndim.dimension(9)?, npair.count(10, "NPAIR")?);
-            nodes.with_pairs(pairs, normal, (ntan, tangnt), |pairs| matrix.with(pairs, model))
+        create(HANDLE, |model| {
+            let matrix = Matrix { N, NNZ, COLPTR, ROWIND, VALUES, TRI, NFIX, FIXED };
+            let nodes = Nodes { SLAVE, NMAST, MSTART, MASTER, WEIGHT };
+            let pairs = (NDIM.dimension()?, NPAIR.count()?);
+            let with_pairs = |pairs| matrix.with(pairs, model);
+            nodes.with_pairs(pairs, NORMAL.place, (NTAN, TANGNT.place), with_pairs)
         })
     }
 }
 
+/// An integer, or an array of them.
+pub(super) type Integers<I> = Argument<*const I>;
+
 /// The arguments from N to FIXED, the first ones.
 pub(super) struct Matrix<I> {
-    pub(super) n: Given<I>,
-    pub(super) nnz: Given<I>,
-    pub(super) colptr: Given<I>,
-    pub(super) rowind: Given<I>,
-    pub(super) values: *const f64,
-    pub(super) tri: Given<I>,
-    pub(super) nfix: Given<I>,
-    pub(super) fixed: Given<I>,
+    pub(super) N: Integers<I>,
+    pub(super) NNZ: Integers<I>,
+    pub(super) COLPTR: Integers<I>,
+    pub(super) ROWIND: Integers<I>,
+    pub(super) VALUES: Argument<*const f64>,
+    pub(super) TRI: Integers<I>,
+    pub(super) NFIX: Integers<I>,
+    pub(super) FIXED: Integers<I>,
 }
 
 impl<I: Integer> Matrix<I> {
@@ -67,55 +55,53 @@ impl<I: Integer> Matrix<I> {
         &self,
         pairs: *const SignoriniPairs,
         model: *mut *mut SignoriniModel,
-    ) -> Result<i32, Failure> {
+    ) -> Outcome<i32> {
         let matrix = self.read()?;
-        let held = self.nfix.count(7, "NFIX")?;
-        let fixed = self.fixed.numbers(8, "FIXED", held)?;
+        let held = self.NFIX.count()?;
+        let fixed = self.FIXED.numbers(held)?;
         let (matrix, fixed) = (&raw const matrix, fixed.as_ptr());
         // SAFETY: by the caller's contract.
         Ok(unsafe { signorini_model_new_sparse(matrix, held, fixed, pairs, null(), model) })
     }
 
-    fn read(&self) -> Result<SignoriniSparse, Failure> {
-        let size = self.n.count(1, "N")?;
-        let nnz = self.nnz.read(2, "NNZ")?.wide();
+    fn read(&self) -> Outcome<SignoriniSparse> {
+        let size = self.N.count()?;
+        let nnz = self.NNZ.wide()?;
         // More than a full matrix has. In 8 bytes there may be more than 2^31 of them.
         if nnz < 0 || nnz > size.saturating_mul(size) {
-            return Err(absurd::<I>(2, "NNZ", nnz));
+            return self.NNZ.refuse_width(nnz);
         }
         let triangles = SIGNORINI_TRIANGLE_LOWER..=SIGNORINI_TRIANGLE_FULL;
-        let triangle = self.tri.one_of(6, "TRI", triangles, "0 (lower), 1 (upper) or 2 (all)")?;
-        check_begins(size, nnz, self.colptr)?;
+        let triangle = self.TRI.one_of(triangles, "0 (lower), 1 (upper) or 2 (all)")?;
+        self.check_begins(size, nnz)?;
         Ok(SignoriniSparse {
             index_bytes: I::BYTES,
             index_base: 1,
             triangle,
             size,
             nnz,
-            col_start: self.colptr.address(),
-            row: self.rowind.address(),
-            values: self.values,
+            col_start: self.COLPTR.place.cast(),
+            row: self.ROWIND.place.cast(),
+            values: self.VALUES.place,
             ..SignoriniSparse::zeros()
         })
     }
-}
 
-/// The begins of the columns, before ROWIND and VALUES are believed to be as long as NNZ says.
-fn check_begins<I: Integer>(size: i64, nnz: i64, colptr: Given<I>) -> Result<(), Failure> {
-    let begins = colptr.slice(3, "COLPTR", size + 1)?;
-    let last = begins.len() - 1;
-    let refuse = |i: usize, wanted: String| {
-        let (place, value) = (entry("COLPTR", [i]), begins[i].wide());
-        Err(Failure::argument(3, format!("{place} is {value}, it must be {wanted}")))
-    };
-    if begins[0].wide() != 1 {
-        let bytes = I::BYTES;
-        return refuse(0, format!("1: indices count from 1, in integers of {bytes} bytes"));
+    /// The begins of the columns, before ROWIND and VALUES are believed to be as long as NNZ says.
+    fn check_begins(&self, size: i64, nnz: i64) -> Outcome<()> {
+        let ends = |begins: &[I]| [begins[0], begins[begins.len() - 1]].map(I::into);
+        let [first, last] = self.COLPTR.entries(size + 1, ends)?;
+        if first != 1 {
+            let bytes = I::BYTES;
+            let wanted = format!("1: indices count from 1, in integers of {bytes} bytes");
+            return self.COLPTR.refuse_entry(0, format!("is {first}, it must be {wanted}"));
+        }
+        if last != nnz + 1 {
+            let wrong = format!("is {last}, it must be NNZ + 1 ({})", nnz + 1);
+            return self.COLPTR.refuse_entry(size, wrong);
+        }
+        Ok(())
     }
-    if begins[last].wide() != nnz + 1 {
-        return refuse(last, format!("NNZ + 1 ({})", nnz + 1));
-    }
-    Ok(())
 }
 
 /// `SLAVE(1,1)` of pairs that are general rows.
@@ -123,11 +109,11 @@ const GENERAL_ROWS: i64 = -1;
 
 /// The arguments from SLAVE, the eleventh, to WEIGHT.
 struct Nodes<I> {
-    slave: Given<I>,
-    nmast: Given<I>,
-    mstart: Given<I>,
-    master: Given<I>,
-    weight: *const f64,
+    SLAVE: Integers<I>,
+    NMAST: Integers<I>,
+    MSTART: Integers<I>,
+    MASTER: Integers<I>,
+    WEIGHT: Argument<*const f64>,
 }
 
 impl<I: Integer> Nodes<I> {
@@ -136,25 +122,24 @@ impl<I: Integer> Nodes<I> {
         &self,
         (dim, pairs): (i32, i64),
         normals: *const f64,
-        (ntan, tangents): (Given<I>, *const f64),
-        work: impl FnOnce(*const SignoriniPairs) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        let first = self.slave.numbers(11, "SLAVE", pairs.min(1))?;
+        (ntan, tangents): (Integers<I>, *const f64),
+        work: impl FnOnce(*const SignoriniPairs) -> Outcome<T>,
+    ) -> Outcome<T> {
+        let first = self.SLAVE.numbers(pairs.min(1))?;
         let is_general = first == [GENERAL_ROWS];
         let slaves = if is_general { 0 } else { pairs * i64::from(dim) };
-        let slaves = self.slave.numbers(11, "SLAVE", slaves)?;
-        let masters = self.nmast.count(12, "NMAST")?;
+        let slaves = self.SLAVE.numbers(slaves)?;
+        let masters = self.NMAST.count()?;
         if is_general && masters == 0 {
             let message = "SLAVE(1,1) is -1, which means general rows, but NMAST is 0: list all nodes of \
                            the pairs in MASTER";
-            return Err(Failure::argument(12, message));
+            return Err(Failure::argument(self.NMAST.position, message));
         }
         let begins = self.begins(pairs, masters)?;
-        let nodes = self.master.numbers(14, "MASTER", masters * i64::from(dim))?;
-        let given = ntan.count(17, "NTAN")?;
+        let nodes = self.MASTER.numbers(masters * i64::from(dim))?;
+        let given = ntan.count()?;
         if given != 0 && given != pairs {
-            let message = format!("NTAN is {given}, it must be 0 or NPAIR ({pairs})");
-            return Err(Failure::argument(17, message));
+            return ntan.refuse(format!("is {given}, it must be 0 or NPAIR ({pairs})"));
         }
         let mut view = SignoriniPairs {
             dim,
@@ -163,7 +148,7 @@ impl<I: Integer> Nodes<I> {
             tangents: if given == 0 { null() } else { tangents },
             ..SignoriniPairs::zeros()
         };
-        let rows = (begins.as_ptr(), nodes.as_ptr(), self.weight);
+        let rows = (begins.as_ptr(), nodes.as_ptr(), self.WEIGHT.place);
         if is_general {
             (view.row_start, view.row_nodes, view.row_weights) = rows;
         } else {
@@ -176,16 +161,15 @@ impl<I: Integer> Nodes<I> {
     }
 
     /// MSTART; empty without masters.
-    fn begins(&self, pairs: i64, masters: i64) -> Result<Vec<i64>, Failure> {
+    fn begins(&self, pairs: i64, masters: i64) -> Outcome<Vec<i64>> {
         if masters == 0 {
             return Ok(Vec::new());
         }
-        let begins = self.mstart.numbers(13, "MSTART", pairs + 1)?;
+        let begins = self.MSTART.numbers(pairs + 1)?;
         let last = begins[pairs as usize];
         if last != masters + 1 {
-            let place = entry("MSTART", [pairs]);
-            let message = format!("{place} is {last}, it must be NMAST + 1 ({})", masters + 1);
-            return Err(Failure::argument(13, message));
+            let wrong = format!("is {last}, it must be NMAST + 1 ({})", masters + 1);
+            return self.MSTART.refuse_entry(pairs, wrong);
         }
         Ok(begins)
     }

@@ -1,5 +1,6 @@
 //! Threads that share the parts of one work after another. They begin with the first work and end with the call.
 
+use std::any::Any;
 use std::cell::RefCell;
 use std::hint::spin_loop;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -86,14 +87,8 @@ struct Notes {
     asleep: usize,
     is_awaited: bool,
     is_over: bool,
-    failure: Option<Collapse>,
-}
-
-/// Why a thread has ended its part otherwise than by doing it.
-enum Collapse {
-    /// It was refused so many bytes.
-    Memory(usize),
-    Panic,
+    /// Why a thread has ended its part otherwise than by doing it.
+    failure: Option<Box<dyn Any + Send>>,
 }
 
 impl Board {
@@ -147,10 +142,7 @@ impl Board {
             let mut notes = self.notes();
             if let Err(reason) = result {
                 self.next.store(parts, Ordering::Relaxed);
-                notes.failure = Some(match reason.downcast_ref::<Shortage>() {
-                    Some(Shortage { bytes }) => Collapse::Memory(*bytes),
-                    None => Collapse::Panic,
-                });
+                notes.failure = Some(reason);
             }
             notes.busy -= 1;
             self.busy.store(notes.busy, Ordering::Relaxed);
@@ -241,8 +233,8 @@ impl Workers for WorkerPool {
             resume_unwind(reason);
         }
         match failure {
-            Some(Collapse::Memory(bytes)) => resume_unwind(Box::new(Shortage { bytes })),
-            Some(Collapse::Panic) => panic!("a further thread of the call has failed"),
+            Some(reason) if reason.is::<Shortage>() => resume_unwind(reason),
+            Some(_) => panic!("a further thread of the call has failed"),
             None => {}
         }
     }
