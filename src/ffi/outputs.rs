@@ -3,7 +3,7 @@
 
 use std::iter::repeat;
 
-use super::args::{Arrays, At, Output, c_entry};
+use super::args::{Arrays, Output, c_entry};
 use super::guard::Outcome;
 use super::numbers::Numbered;
 use super::report::{SignoriniReport, state_codes};
@@ -30,7 +30,9 @@ pub(super) struct Outputs {
     state: Output<i32>,
     pub(super) status: Output<i32>,
     reports: OutStructures<SignoriniReport>,
-    extra: Extra,
+    /// Motion, escape, displacements and forces of the second solution, radii of displacements and forces, the low part.
+    further: [Output<f64>; 7],
+    second_state: Output<i32>,
 }
 
 impl OutputArguments {
@@ -48,9 +50,22 @@ impl OutputArguments {
         let state = arrays.at(first + 2, "state").optional_output(self.state, pairs * cases)?;
         let status = arrays.at(first + 3, "status").optional_output(self.status, cases)?;
         let reports = arrays.at(report, "report").out_structures(self.report, cases)?;
-        let at_extra = arrays.at(report + 1, "extra");
-        let extra = Extra::read(at_extra, self.extra, (n, pairs, cases))?;
-        Ok(Outputs { n, pairs, d, force, state, status, reports, extra })
+        let at = arrays.at(report + 1, "extra");
+        let given = at.copy(self.extra)?;
+        at.check_reserved(given.reserved)?;
+        let vector = |field, pointer| at.field(field).optional_output(pointer, n * cases);
+        let further = [
+            vector("motion", given.motion)?,
+            vector("escape", given.escape)?,
+            vector("second_d", given.second_d)?,
+            vector("second_F", given.second_F)?,
+            vector("radius_d", given.radius_d)?,
+            vector("radius_F", given.radius_F)?,
+            vector("d_low", given.d_low)?,
+        ];
+        let at_state = at.field("second_state");
+        let second_state = at_state.optional_output(given.second_state, pairs * cases)?;
+        Ok(Outputs { n, pairs, d, force, state, status, reports, further, second_state })
     }
 }
 
@@ -63,8 +78,38 @@ impl Outputs {
         self.force.part(n * case, n).write(&certificate.force);
         self.state.part(pairs * case, pairs).write_each(state_codes(&certificate.states));
         self.reports.write(case, &SignoriniReport::of(status, solution));
-        self.extra.write(case, solution);
+        self.write_further(case, solution);
         status
+    }
+
+    /// Writes the results of a case that not every call wants.
+    fn write_further(&self, case: usize, solution: &Solution) {
+        let (n, pairs) = (self.n, self.pairs);
+        let second = solution.second.as_deref();
+        let proof = match &solution.existence {
+            Existence::Proved(proof) => Some(proof),
+            Existence::NotAsked | Existence::NotProved => None,
+        };
+        // Distances of the proved solution from what the caller receives.
+        let about_d = proof.map(|proof| proof.radius_about(&solution.d));
+        let about_force = proof.map(|proof| proof.force_radius_about(&solution.certificate.force));
+        let vectors = [
+            (solution.recession.as_ref(), 0.0),
+            (solution.escape.as_ref().map(|escape| &escape.motion), 0.0),
+            (second.map(|second| &second.d), 0.0),
+            (second.map(|second| &second.certificate.force), 0.0),
+            (about_d.as_ref(), NO_RADIUS),
+            (about_force.as_ref(), NO_RADIUS),
+            (Some(&solution.d_low), 0.0),
+        ];
+        for (output, (values, nothing)) in self.further.iter().zip(vectors) {
+            output.part(n * case, n).write_or(values, nothing);
+        }
+        let states = self.second_state.part(pairs * case, pairs);
+        match second {
+            Some(second) => states.write_each(state_codes(&second.certificate.states)),
+            None => states.write_each(repeat(0)),
+        }
     }
 }
 
@@ -108,70 +153,6 @@ pub(super) const NO_RADIUS: f64 = -1.0;
 
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniExtra {}
-
-/// The arrays of the caller's structure.
-pub(super) struct Extra {
-    /// Motion, escape, displacements and forces of the second solution, radii of displacements and forces, the low part.
-    vectors: [Output<f64>; 7],
-    second_state: Output<i32>,
-}
-
-impl Extra {
-    /// Reads the caller's structure for results of `n` unknowns of `pairs` pairs, each `cases`
-    /// times; NULL: nothing is wanted.
-    pub(super) fn read(
-        at: At<'_>,
-        pointer: *const SignoriniExtra,
-        (n, pairs, cases): (usize, usize, usize),
-    ) -> Outcome<Self> {
-        let given = at.copy(pointer)?;
-        at.check_reserved(given.reserved)?;
-        // No overflow: the required arrays d and state of the call are as long.
-        let vector = |field, pointer| at.field(field).optional_output(pointer, n * cases);
-        let vectors = [
-            vector("motion", given.motion)?,
-            vector("escape", given.escape)?,
-            vector("second_d", given.second_d)?,
-            vector("second_F", given.second_F)?,
-            vector("radius_d", given.radius_d)?,
-            vector("radius_F", given.radius_F)?,
-            vector("d_low", given.d_low)?,
-        ];
-        let at_state = at.field("second_state");
-        let second_state = at_state.optional_output(given.second_state, pairs * cases)?;
-        Ok(Extra { vectors, second_state })
-    }
-
-    /// Writes the results of a case.
-    pub(super) fn write(&self, case: usize, solution: &Solution) {
-        let (n, pairs) = (solution.d.len(), solution.certificate.states.len());
-        let second = solution.second.as_deref();
-        let proof = match &solution.existence {
-            Existence::Proved(proof) => Some(proof),
-            Existence::NotAsked | Existence::NotProved => None,
-        };
-        // Distances of the proved solution from what the caller receives.
-        let about_d = proof.map(|proof| proof.radius_about(&solution.d));
-        let about_force = proof.map(|proof| proof.force_radius_about(&solution.certificate.force));
-        let vectors = [
-            (solution.recession.as_ref(), 0.0),
-            (solution.escape.as_ref().map(|escape| &escape.motion), 0.0),
-            (second.map(|second| &second.d), 0.0),
-            (second.map(|second| &second.certificate.force), 0.0),
-            (about_d.as_ref(), NO_RADIUS),
-            (about_force.as_ref(), NO_RADIUS),
-            (Some(&solution.d_low), 0.0),
-        ];
-        for (output, (values, nothing)) in self.vectors.iter().zip(vectors) {
-            output.part(n * case, n).write_or(values, nothing);
-        }
-        let states = self.second_state.part(pairs * case, pairs);
-        match second {
-            Some(second) => states.write_each(state_codes(&second.certificate.states)),
-            None => states.write_each(repeat(0)),
-        }
-    }
-}
 
 /// Fills extra with NULL pointers; struct_size is sizeof(signorini_extra).
 #[unsafe(no_mangle)]

@@ -3,8 +3,7 @@
 use libc::c_char;
 
 use super::args::c_entry;
-use super::case_arguments::CaseArguments;
-use super::condensed::CondensedArguments;
+use super::case_arguments::{CaseArguments, CondensedArguments};
 use super::guard::{number_of, refused};
 use super::lcp::LCP_ARGUMENTS;
 use super::model::SignoriniModel;

@@ -3,7 +3,7 @@
 use std::ptr::null_mut;
 
 use super::args::c_entry;
-use super::condensed::CondensedArguments;
+use super::case_arguments::CondensedArguments;
 use super::guard::{self, refused};
 use super::outputs::{OutputArguments, SignoriniExtra};
 use super::report::SignoriniReport;

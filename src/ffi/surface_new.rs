@@ -81,16 +81,11 @@ pub unsafe extern "C" fn signorini_surface_pair(
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let base = host.received.numbering.base;
         let master = SignoriniFaces::read(arrays.at(5, "master"), master, base)?;
-        let surfaces = Surfaces {
-            dim: host.dim,
-            coordinates: host.coordinates,
-            slave: SignoriniFaces::view(&host.slave),
-            master: SignoriniFaces::view(&master),
-        };
-        let ParsedSurfaceSettings { settings, limits, .. } = &host.received;
-        let Surfaces { dim, coordinates, slave, master } = surfaces;
-        let found = limits.monitored(|monitor| {
-            let found = pair_surfaces(&surfaces, settings, monitor)?;
+        let Host { dim, coordinates, .. } = host;
+        let (slave, master) = (SignoriniFaces::view(&host.slave), SignoriniFaces::view(&master));
+        let found = host.received.limits.monitored(|monitor| {
+            let surfaces = Surfaces { dim, coordinates, slave, master };
+            let found = pair_surfaces(&surfaces, &host.received.settings, monitor)?;
             Ok((found, KeptSurfaces::new((dim, coordinates), slave, master)))
         });
         let pairs = found.map(|(found, kept)| SignoriniSurfacePairs::of_host(found, kept, host));
@@ -121,22 +116,21 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     c_entry!(|arrays| {
         let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
-        let Host { dim, coordinates, received, .. } = &host;
-        let slave = SignoriniFaces::view(&host.slave);
-        let (at, base) = (arrays.at(5, "obstacle"), received.numbering.base);
-        let obstacle = SignoriniObstacle::read(at, *dim, base, obstacle)?;
-        let given = &received.settings;
-        let host_side = (*dim, *coordinates);
-        let found = received.limits.monitored(|monitor| match &obstacle {
+        let Host { dim, coordinates, .. } = host;
+        let (slave, host_side) = (SignoriniFaces::view(&host.slave), (dim, coordinates));
+        let ParsedSurfaceSettings { settings, limits, numbering } = &host.received;
+        let at = arrays.at(5, "obstacle");
+        let obstacle = SignoriniObstacle::read(at, dim, numbering.base, obstacle)?;
+        let found = limits.monitored(|monitor| match &obstacle {
             Rigid::Shape(shape) => {
-                let found = pair_with_obstacle(*dim, coordinates, slave, shape, given, monitor)?;
+                let found = pair_with_obstacle(dim, coordinates, slave, shape, settings, monitor)?;
                 Ok((found, KeptSurfaces::against_shape(host_side, slave, *shape)))
             }
             Rigid::Faces(of_obstacle, faces) => {
                 let faces = SignoriniFaces::view(faces);
                 let rigid = RigidSurface { coordinates: of_obstacle, faces };
                 let found =
-                    pair_with_rigid_surface(*dim, coordinates, slave, &rigid, given, monitor)?;
+                    pair_with_rigid_surface(dim, coordinates, slave, &rigid, settings, monitor)?;
                 let kept = KeptSurfaces::against_faces(host_side, slave, (of_obstacle, faces));
                 Ok((found, kept))
             }

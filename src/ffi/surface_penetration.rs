@@ -2,7 +2,6 @@
 
 use super::args::c_entry;
 use super::guard::refused;
-use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
@@ -27,9 +26,6 @@ pub struct SignoriniPenetration {
     /// The master face that it has passed through; -1 of an obstacle that is a shape.
     pub master_face: i64,
 }
-
-// SAFETY: led by its size; numbers.
-unsafe impl Structure for SignoriniPenetration {}
 
 /// Checks after a solution if parts of the slave's surface have passed through the master or the
 /// obstacle: nothing holds what has no pair, such as faces beyond the search distance. Where pairs

@@ -26,9 +26,15 @@ entry! {
     ) {
         create(HSURF, |contact| {
             let (dim, nodes) = (NDIM.dimension()?, NNODE.count()?);
+            let dofs = NDOF.choice()?;
+            if dofs != 0 && dofs < dim {
+                return NDOF.refuse(format!("is {dofs}, it must be 0 or at least NDIM ({dim})"));
+            }
+            let kinds = SIGNORINI_PAIRING_DUAL_MORTAR..=SIGNORINI_PAIRING_NODE_TO_SURFACE;
+            let wanted = "0 (dual mortar) or 1 (nodes against surfaces)";
             let settings = SignoriniSurfaceSettings {
-                dofs_per_node: dofs_of_a_node(dim, NDOF)?,
-                pairing: pairing(PAIRNG)?,
+                dofs_per_node: dofs,
+                pairing: PAIRNG.one_of(kinds, wanted)?,
                 search_distance: DIST.read()?,
                 index_base: 1,
                 ..SignoriniSurfaceSettings::default_one()
@@ -45,21 +51,6 @@ entry! {
             Ok(status)
         })
     }
-}
-
-/// NDOF.
-fn dofs_of_a_node<I: Integer>(dim: i32, ndof: Integers<I>) -> Outcome<i32> {
-    let dofs = ndof.choice()?;
-    if dofs != 0 && dofs < dim {
-        return ndof.refuse(format!("is {dofs}, it must be 0 or at least NDIM ({dim})"));
-    }
-    Ok(dofs)
-}
-
-/// PAIRNG.
-fn pairing<I: Integer>(pairng: Integers<I>) -> Outcome<i32> {
-    let kinds = SIGNORINI_PAIRING_DUAL_MORTAR..=SIGNORINI_PAIRING_NODE_TO_SURFACE;
-    pairng.one_of(kinds, "0 (dual mortar) or 1 (nodes against surfaces)")
 }
 
 /// Faces in the form of C, counted from 1.
