@@ -8,7 +8,7 @@ use std::iter::repeat;
 use std::path::Path;
 
 use super::guard::{self, Failure, Outcome, refused};
-use crate::error::{Argument, Error, entry};
+use crate::error::{Error, entry};
 use crate::linalg::matrix::required_length;
 use crate::problem;
 
@@ -93,12 +93,16 @@ impl Arrays {
         At { arrays: self, place: Place { position, name, field: "" }, in_reserve: IN_RESERVE }
     }
 
-    /// Dimension, pairs and unknowns, from the arguments number `first` and `first + 1`.
-    pub(super) fn sizes(&self, first: i32, dim: i32, pairs: i64) -> Outcome<(usize, usize, usize)> {
-        let place = |argument| first + i32::from(argument == Argument::Size);
-        let dim = problem::checked_dim(dim).map_err(refused(place))?;
-        let pairs = self.at(first + 1, "pairs").size(pairs)?;
-        Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(refused(place))?))
+    /// Dimension, pairs and unknowns, from two arguments with these numbers.
+    pub(super) fn sizes(
+        &self,
+        [at_dim, at_pairs]: [i32; 2],
+        dim: i32,
+        pairs: i64,
+    ) -> Outcome<(usize, usize, usize)> {
+        let dim = problem::checked_dim(dim).map_err(refused(|_| at_dim))?;
+        let pairs = self.at(at_pairs, "pairs").size(pairs)?;
+        Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(refused(|_| at_pairs))?))
     }
 
     /// Refuses an output that shares memory with another array.

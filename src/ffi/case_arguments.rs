@@ -38,7 +38,7 @@ impl CondensedArguments {
     /// The arrays as slices, noted in `arrays`.
     pub(super) fn read<'h>(&self, arrays: &'h Arrays) -> Outcome<ContactData<'h>> {
         let at = |offset, name| arrays.at(self.first + offset, name);
-        let (dim, pairs, n) = arrays.sizes(self.first, self.dim, self.pairs)?;
+        let (dim, pairs, n) = arrays.sizes([self.first, self.first + 1], self.dim, self.pairs)?;
         let (stiffness, ld) = at(2, "K").square(self.K, ("ldk", self.ldk), n)?;
         Ok(ContactData {
             dim,
@@ -47,7 +47,7 @@ impl CondensedArguments {
             ld,
             load: at(4, "f").required(self.f, n)?,
             gap: at(5, "gap").required(self.gap, pairs)?,
-            law: law::read(at(6, "law"), (self.law, self.friction), pairs)?,
+            law: law::read((at(6, "law"), self.law), (at(7, "friction"), self.friction), pairs)?,
             reference_slip: at(8, "slip0").optional(self.slip0, n - pairs)?,
         })
     }
@@ -100,7 +100,7 @@ impl CaseArguments {
             load: at(0, "f").matrix().required(self.f, host)?,
             prescribed: at(1, "prescribed").optional(self.prescribed, fixed)?,
             gap: at(2, "gap").required(self.gap, pairs)?,
-            law: law::read(at(3, "law"), (self.law, self.friction), pairs)?,
+            law: law::read((at(3, "law"), self.law), (at(4, "friction"), self.friction), pairs)?,
             slip0: at(5, "slip0").optional(self.slip0, slips)?,
         };
         guard::reserve_estimate(cases.memory_of_ties())?;

@@ -57,5 +57,4 @@ macro_rules! entry {
 mod arguments;
 mod calls;
 mod handles;
-mod sparse;
 mod surfaces;

@@ -2,12 +2,11 @@
 
 use std::cell::Cell;
 
-use super::panic_sentence::caught;
 use super::reserve::{self, CallReserve};
 use super::status::{
     SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
     SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
-    remember, remember_plain,
+    caught, remember, remember_plain,
 };
 use super::surroundings::Surroundings;
 use crate::error::{Argument, Error, Limit, Message};
@@ -19,7 +18,8 @@ pub(super) type Outcome<T> = Result<T, Failure>;
 
 /// Why a call ends without a result.
 pub(super) struct Failure {
-    code: i32,
+    /// The status.
+    pub(super) code: i32,
     message: Message,
 }
 
@@ -27,11 +27,6 @@ impl Failure {
     /// The `position`-th argument is wrong.
     pub(super) fn argument(position: i32, message: impl Into<Message>) -> Self {
         Failure { code: -position, message: message.into() }
-    }
-
-    /// This failure about another argument: the structure in which the wrong one stands.
-    pub(super) fn at(self, position: i32) -> Self {
-        Failure { code: -position, ..self }
     }
 
     /// This failure with an explanation.
@@ -54,11 +49,6 @@ impl Failure {
              nothing was done"
         );
         Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }
-    }
-
-    /// The status.
-    pub(super) fn code(&self) -> i32 {
-        self.code
     }
 }
 

@@ -44,24 +44,23 @@ numbers! {
 /// The last of the laws, which are numbered without gaps.
 pub(super) const LAST_LAW: i32 = Law::ALL.len() as i32 - 1;
 
-/// The argument `law`, and `friction`, the next one, for `pairs` pairs.
-pub(super) fn read(
-    at: At<'_>,
-    (law, friction): (i32, *const f64),
+/// The arguments `law` and `friction` for `pairs` pairs.
+pub(super) fn read<'a>(
+    (at_law, law): (At<'_>, i32),
+    (at_friction, friction): (At<'a>, *const f64),
     pairs: usize,
-) -> Outcome<FrictionLaw<'_>> {
+) -> Outcome<FrictionLaw<'a>> {
     let Some(law) = Law::numbered(law) else {
         let known = Law::ALL.map(|law| {
             let name = law.name().to_uppercase().replace('-', "_");
             format!("_{name} ({})", Numbered::number(law))
         });
-        return at.refuse(format!("is {law}, it must be SIGNORINI_LAW{}", known.join(", ")));
+        return at_law.refuse(format!("is {law}, it must be SIGNORINI_LAW{}", known.join(", ")));
     };
     let parameters = law.parameters().len();
     if parameters == 0 {
         return Ok(law.with(&[]));
     }
-    let at_friction = at.next().named("friction");
     if friction.is_null() && pairs > 0 {
         let title = law.title();
         let wrong = format!("is NULL, it must hold the parameters of {title} of each pair");

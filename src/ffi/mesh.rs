@@ -170,7 +170,6 @@ fn own_field<'a>(
 
 /// A contact zone with its solution, for signorini_mesh_write.
 #[repr(C)]
-#[derive(Clone, Copy)]
 pub struct SignoriniZone {
     /// sizeof(signorini_zone).
     pub struct_size: u32,

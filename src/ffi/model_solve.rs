@@ -1,7 +1,8 @@
 //! Load cases of a model.
 
+use std::mem::take;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::args::c_entry;
 use super::case_arguments::{CaseArguments, LoadCases, times};
@@ -99,16 +100,18 @@ struct Lane<'m> {
     series: Series<'m>,
     /// The caller's starts of the next cases.
     starts: Vec<f64>,
+    /// What the last cases have come to, each with its number.
+    solved: Vec<(usize, Result<Solution, Error>)>,
 }
 
 impl Lane<'_> {
-    /// Solves the next cases, each with its number.
+    /// Solves the next cases.
     fn solve_next(
         &mut self,
         cases: &LoadCases<'_>,
         (settings, start): (&Settings, WarmStart),
         progress: Option<&mut ProgressFn<'_>>,
-    ) -> Vec<(usize, Result<Solution, Error>)> {
+    ) {
         let next = self.left.start..self.left.end.min(self.left.start + BLOCK);
         self.left.start = next.end;
         let cases: Vec<_> = next.clone().map(|k| cases.case(k)).collect();
@@ -118,7 +121,7 @@ impl Lane<'_> {
             WarmStart::Previous => Starts::Previous(None),
         };
         let solved = self.series.solve_cases(&cases, settings, starts, progress);
-        next.zip(solved).collect()
+        self.solved = next.zip(solved).collect();
     }
 }
 
@@ -146,7 +149,8 @@ impl Block<'_> {
         };
         with_threads(threads, memory, || {
             while lanes.iter().any(|lane| !lane.left.is_empty()) {
-                for (case, solved) in self.next_of(&mut lanes, received) {
+                self.solve_next(&mut lanes, received);
+                for (case, solved) in lanes.iter_mut().flat_map(|lane| take(&mut lane.solved)) {
                     let (code, message) = self.write(case, solved);
                     self.outputs.status.part(case, 1).write(&[code]);
                     let rank = (code == 0, case);
@@ -170,26 +174,19 @@ impl Block<'_> {
     /// functions are called.
     fn lanes(&self, cases: usize, past: Option<Past>, received: &ParsedSettings) -> Vec<Lane<'_>> {
         let model = self.model;
+        let lane = |left, series| Lane { left, series, starts: Vec::new(), solved: Vec::new() };
         if received.warm_start == WarmStart::Previous {
-            let series = Series::after(model, past.unwrap_or_else(Past::of_none));
-            return vec![Lane { left: 0..cases, series, starts: Vec::new() }];
+            return vec![lane(0..cases, Series::after(model, past.unwrap_or_else(Past::of_none)))];
         }
         let alone = received.progress.is_some() || model.is_matrix_free();
         let count = if alone { 1 } else { received.threads.min(cases) };
         let begin = |lane: usize| lane * cases / count;
-        let lane = |number: usize| {
-            let left = begin(number)..begin(number + 1);
-            Lane { series: Series::of(model, left.len()), left, starts: Vec::new() }
-        };
-        (0..count).map(lane).collect()
+        let parts = (0..count).map(|number| begin(number)..begin(number + 1));
+        parts.map(|left| lane(left.clone(), Series::of(model, left.len()))).collect()
     }
 
-    /// Solves the next cases of each lane. Returns what each case has come to, by its number.
-    fn next_of(
-        &self,
-        lanes: &mut [Lane<'_>],
-        received: &ParsedSettings,
-    ) -> Vec<(usize, Result<Solution, Error>)> {
+    /// Solves the next cases of each lane.
+    fn solve_next(&self, lanes: &mut [Lane<'_>], received: &ParsedSettings) {
         if received.warm_start == WarmStart::Given {
             lanes.iter_mut().for_each(|lane| self.take_starts(lane));
         }
@@ -199,14 +196,9 @@ impl Block<'_> {
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
             return lane.solve_next(cases, how, progress);
         }
-        let parts: Vec<_> = lanes.iter_mut().map(|lane| Mutex::new((lane, Vec::new()))).collect();
-        let work = |_, part: usize| {
-            let mut part = locked(&parts[part]);
-            part.1 = part.0.solve_next(cases, how, None);
-        };
+        let parts: Vec<_> = lanes.iter_mut().map(Mutex::new).collect();
+        let work = |_, part: usize| locked(&parts[part]).solve_next(cases, how, None);
         share(parts.len(), f64::INFINITY, &work, &mut || true);
-        let solved = parts.into_iter().map(Mutex::into_inner);
-        solved.flat_map(|part| part.unwrap_or_else(PoisonError::into_inner).1).collect()
     }
 
     /// Copies the starts that the caller gives to the next cases of a lane.
@@ -231,7 +223,7 @@ impl Block<'_> {
                     let own = if argument == Argument::Start { START + forces } else { SETTINGS };
                     self.given.position(argument, own)
                 };
-                (refused(position)(error).code(), Some(message))
+                (refused(position)(error).code, Some(message))
             }
         }
     }

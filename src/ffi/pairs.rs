@@ -124,6 +124,10 @@ impl SignoriniPairs {
         let of_slaves = is_given(&[self.slaves, self.master_start, self.masters], &[self.weights]);
         let of_rows = is_given(&[self.row_nodes], &[self.row_weights, self.row_vectors]);
         let by_dof = !self.row_vectors.is_null();
+        let (row_numbers, name) = match by_dof {
+            true => (self.row_vectors, "row_vectors"),
+            false => (self.row_weights, "row_weights"),
+        };
         match (self.row_start.is_null(), of_slaves, of_rows) {
             (false, true, _) => at.refuse_part(
                 "row_start is set, and slaves, master_start, masters or weights too: leave \
@@ -141,13 +145,9 @@ impl SignoriniPairs {
                 slaves: None,
                 start: self.row_start,
                 dofs: self.row_nodes,
-                numbers: if by_dof { self.row_vectors } else { self.row_weights },
+                numbers: row_numbers,
                 by_dof,
-                names: [
-                    "row_start",
-                    "row_nodes",
-                    if by_dof { "row_vectors" } else { "row_weights" },
-                ],
+                names: ["row_start", "row_nodes", name],
             }),
             (true, _, false) => Ok(Nodes {
                 slaves: Some(self.slaves),

@@ -1,10 +1,13 @@
-//! Status codes, their sentences, the last error and the version.
+//! Status codes, their sentences, the last error, that of a panic inside a call, and the version.
 
 use libc::c_char;
+use std::any::Any;
 use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::numbers::{Numbered, numbers};
 use crate::error::Message;
+use crate::shortage::Shortage;
 use crate::solve::{Remarks, Solution, Status};
 
 /// Solved and certified: eta <= tolerance.
@@ -154,18 +157,6 @@ pub(super) fn keeping_sentence(work: impl FnOnce()) {
     LAST.set(kept);
 }
 
-/// Keeps the sentence of a panic, until it is told.
-#[cfg(c_library)]
-pub(super) fn note_panic(message: &str) {
-    PANIC.with_borrow_mut(|sentence| sentence.set(message));
-}
-
-/// A panic has ended the call.
-#[cfg(c_library)]
-pub(super) fn tell_panic() {
-    LAST.set([PANIC.with_borrow(|sentence| *sentence); 2]);
-}
-
 /// The sentence of the last call on this thread, as Fortran counts.
 pub(super) fn last_counted_from_one() -> String {
     let [_, Sentence { text, used }] = LAST.with_borrow(|last| *last);
@@ -178,4 +169,63 @@ pub(super) fn last_counted_from_one() -> String {
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|[c, _]| c.text.as_ptr().cast())
+}
+
+/// Runs the body of a call, and remembers the sentence of a panic that ends it.
+pub(super) fn caught<T>(body: impl FnOnce() -> T) -> Result<T, Box<dyn Any + Send>> {
+    #[cfg(c_library)]
+    hook::set();
+    // Unwind safety: only the caller's outputs can be half-written, and they are undefined with
+    // SIGNORINI_STATUS_INTERNAL.
+    let result = catch_unwind(AssertUnwindSafe(body));
+    if let Err(reason) = &result
+        && !reason.is::<Shortage>()
+    {
+        tell(reason.as_ref());
+    }
+    result
+}
+
+/// The hook has noted the sentence, with the place in the source.
+#[cfg(c_library)]
+fn tell(_: &dyn Any) {
+    LAST.set([PANIC.with_borrow(|sentence| *sentence); 2]);
+}
+
+#[cfg(not(c_library))]
+fn tell(reason: &dyn Any) {
+    let text = reason.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| reason.downcast_ref::<&str>().copied()).unwrap_or("a panic");
+    remember(format!("internal error: {text}"));
+}
+
+/// The hook of the C library. Rust's default hook prints to the host's stderr; inside a call the
+/// sentence goes to `signorini_last_error` instead. Panics elsewhere keep the hook of before. A Rust
+/// program has its own hook, which stays.
+#[cfg(c_library)]
+mod hook {
+    use std::panic::PanicHookInfo;
+    use std::sync::{Once, OnceLock};
+
+    use super::super::surroundings::is_in_call;
+    use super::PANIC;
+
+    type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Sync + Send + 'static>;
+
+    pub(super) fn set() {
+        static ONCE: Once = Once::new();
+        static OUTER: OnceLock<Hook> = OnceLock::new();
+        ONCE.call_once(|| {
+            // A hook without captures: it takes no memory that dlclose would lose.
+            OUTER.get_or_init(std::panic::take_hook);
+            std::panic::set_hook(Box::new(|panic| {
+                if is_in_call() {
+                    let sentence = format!("internal error: {panic}");
+                    PANIC.with_borrow_mut(|noted| noted.set(&sentence));
+                } else if let Some(outer) = OUTER.get() {
+                    outer(panic);
+                }
+            }));
+        });
+    }
 }

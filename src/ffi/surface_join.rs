@@ -10,12 +10,13 @@ use super::args::{Arrays, c_entry};
 use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::numbers::Numbered;
+use super::surface::SignoriniFaces;
 use super::surface_fields::{pair_results, position};
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::error::index;
 use crate::law::State;
 use crate::problem::Law;
-use crate::surface::{ContactZone, Faces, join_zones, summary_of_zones};
+use crate::surface::{ContactZone, join_zones, summary_of_zones};
 
 /// A contact zone for signorini_surface_join.
 #[repr(C)]
@@ -184,13 +185,10 @@ impl<'h> Zone<'h> {
         if !contact.zones.names.is_empty() {
             return Err(refuse("its pairs are joined already: give those of each zone"));
         }
-        let friction = law::read(arrays.at(ZONES, "law"), (given.law, given.friction), 1).map_err(
-            |failure| {
-                let failure = failure.explained(&of_zone);
-                // The numbers of a law stand in the structure too.
-                if failure.code() == -(ZONES + 1) { failure.at(ZONES) } else { failure }
-            },
-        )?;
+        // The numbers of a law stand in the structure too.
+        let at = ["law", "friction"].map(|name| arrays.at(ZONES, name));
+        let friction = law::read((at[0], given.law), (at[1], given.friction), 1)
+            .map_err(|failure| failure.explained(&of_zone))?;
         if Law::of_number(friction.law().number()).is_none() {
             return Err(refuse("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone"));
         }
@@ -201,8 +199,7 @@ impl<'h> Zone<'h> {
     }
 
     fn part(&self) -> ContactZone<'_> {
-        let [start, nodes] = &self.contact.slave_faces;
-        let slave = Faces { start, nodes };
+        let slave = SignoriniFaces::view(&self.contact.slave_faces);
         ContactZone { name: self.name, contact: &self.contact.found, slave }
     }
 }

@@ -1,4 +1,4 @@
-//! Contact pairs from surfaces: made, told about, released.
+//! Contact pairs from surfaces: made, released, and told about; and slave nodes that move onto the other side, once.
 
 use std::ffi::CString;
 use std::mem::take;
@@ -11,7 +11,9 @@ use super::structures::Structure;
 use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
 use super::surface_settings::{Numbering, ParsedSurfaceSettings, SignoriniSurfaceSettings};
 use crate::error::{Argument, Message};
+use crate::monitor::Monitor;
 use crate::problem;
+use crate::settings::Settings;
 use crate::surface::{
     KeptSurfaces, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces,
     pair_with_obstacle, pair_with_rigid_surface,
@@ -145,6 +147,32 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
 pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePairs) {
     // SAFETY: NULL, or by the header's contract it came from signorini_surface_pair..., once.
     unsafe { release(contact) }
+}
+
+/// Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
+/// whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
+/// Assemble your matrix with the moved nodes, and pair again.
+///
+/// @param contact      the pairs
+/// @param within       largest distance that is closed, also +infinity; length
+/// @param coordinates  in: those that were paired, dim for each node; out: moved
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn signorini_surface_adjust(
+    contact: *const SignoriniSurfacePairs,
+    within: f64,
+    coordinates: *mut f64,
+) -> i32 {
+    c_entry!(|arrays| {
+        let contact = arrays.at(1, "contact").handle(contact)?;
+        let length = contact.found.dim * contact.nodes;
+        let place = arrays.at(3, "coordinates").output(coordinates, length)?;
+        let mut moved = place.read();
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        let position = |argument| if argument == Argument::Settings { 2 } else { 3 };
+        contact.found.adjust(within, &mut moved, monitor).map_err(refused(position))?;
+        place.write(&moved);
+        Ok(0)
+    })
 }
 
 /// Number of an argument of both calls.

@@ -10,7 +10,6 @@ use super::surface_new::SignoriniSurfacePairs;
 /// Pairs from surfaces, and the faces and nodes without any. Arrays live as long as the pairs; one
 /// without entries is NULL. Nodes and faces are counted from index_base.
 #[repr(C)]
-#[derive(Clone, Copy)]
 pub struct SignoriniSurfaceData {
     /// sizeof(signorini_surface_data).
     pub struct_size: u32,

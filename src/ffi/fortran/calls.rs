@@ -1,22 +1,23 @@
-//! SGSOLV, SGLCPS: everything in one call. SGCASE, SGRECV, SGFREE: models known by numbers. SGMESG: the last sentence,
-//! whose numbers count from 1.
+//! SGSOLV, SGLCPS: everything in one call. SGSPAR, SGCASE, SGRECV, SGFREE: models of whole sparse matrices, known by
+//! numbers. SGMESG: the last sentence, whose numbers count from 1.
 
 use std::ptr::{null, null_mut};
 use std::sync::Arc;
 
 use libc::c_char;
 
-use super::super::guard::Outcome;
-use super::super::lcp::signorini_lcp_solve;
-use super::super::model::SignoriniModel;
-use super::super::model_recover::signorini_model_recover;
+use super::super::guard::{Failure, Outcome};
+use super::super::model::{SignoriniModel, signorini_model_recover};
+use super::super::model_new::signorini_model_new_sparse;
 use super::super::model_solve::signorini_model_solve;
+use super::super::pairs::SignoriniPairs;
 use super::super::report::SignoriniReport;
-use super::super::solve::signorini_solve;
+use super::super::solve::{signorini_lcp_solve, signorini_solve};
+use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::super::status::last_counted_from_one;
 use super::super::structures::Structure;
 use super::arguments::{Argument, Integer, fill, run, settings, widen, write};
-use super::handles::{find, free};
+use super::handles::{create, find, free};
 
 /// Hands over STATE, ETA and ITER of a call with results, and its status.
 ///
@@ -80,6 +81,26 @@ entry! {
 }
 
 entry! {
+    // The function of C tells that the matrix is wrong, and not which array of it: here its values. Likewise the
+    // pairs: here SLAVE.
+    sgspar_ sgspar_64_ calls [VALUES, NFIX, FIXED, SLAVE, HANDLE, HANDLE],
+    (
+        N: *const I, NNZ: *const I, COLPTR: *const I, ROWIND: *const I, VALUES: *const f64,
+        TRI: *const I, NFIX: *const I, FIXED: *const I, NDIM: *const I, NPAIR: *const I,
+        SLAVE: *const I, NMAST: *const I, MSTART: *const I, MASTER: *const I, WEIGHT: *const f64,
+        NORMAL: *const f64, NTAN: *const I, TANGNT: *const f64, HANDLE: *mut i64,
+    ) {
+        create(HANDLE, |model| {
+            let matrix = Matrix { N, NNZ, COLPTR, ROWIND, VALUES, TRI, NFIX, FIXED };
+            let nodes = Nodes { SLAVE, NMAST, MSTART, MASTER, WEIGHT };
+            let pairs = (NDIM.dimension()?, NPAIR.count()?);
+            let with_pairs = |pairs| matrix.with(pairs, model);
+            nodes.with_pairs(pairs, NORMAL.place, (NTAN, TANGNT.place), with_pairs)
+        })
+    }
+}
+
+entry! {
     // Argument 2 of the function of C is the number of cases.
     sgcase_ sgcase_64_
     calls [HANDLE, HANDLE, F, PRESC, GAP, LAW, FRIC, SLIP0, METHOD, D, R, STATE],
@@ -126,5 +147,149 @@ export! {
         if let Ok(length) = Argument::of(LTEXT, 2, "LTEXT").wide() {
             fill(TEXT, length, &last_counted_from_one());
         }
+    }
+}
+
+/// An integer, or an array of them.
+pub(super) type Integers<I> = Argument<*const I>;
+
+/// The arguments from N to FIXED, the first ones.
+pub(super) struct Matrix<I> {
+    pub(super) N: Integers<I>,
+    pub(super) NNZ: Integers<I>,
+    pub(super) COLPTR: Integers<I>,
+    pub(super) ROWIND: Integers<I>,
+    pub(super) VALUES: Argument<*const f64>,
+    pub(super) TRI: Integers<I>,
+    pub(super) NFIX: Integers<I>,
+    pub(super) FIXED: Integers<I>,
+}
+
+impl<I: Integer> Matrix<I> {
+    /// The model of the matrix and of these pairs.
+    ///
+    /// # Safety
+    /// As include/signorini.inc demands.
+    pub(super) unsafe fn with(
+        &self,
+        pairs: *const SignoriniPairs,
+        model: *mut *mut SignoriniModel,
+    ) -> Outcome<i32> {
+        let matrix = self.read()?;
+        let held = self.NFIX.count()?;
+        let fixed = self.FIXED.numbers(held)?;
+        let (matrix, fixed) = (&raw const matrix, fixed.as_ptr());
+        // SAFETY: by the caller's contract.
+        Ok(unsafe { signorini_model_new_sparse(matrix, held, fixed, pairs, null(), model) })
+    }
+
+    fn read(&self) -> Outcome<SignoriniSparse> {
+        let size = self.N.count()?;
+        let nnz = self.NNZ.wide()?;
+        // More than a full matrix has. In 8 bytes there may be more than 2^31 of them.
+        if nnz < 0 || nnz > size.saturating_mul(size) {
+            return self.NNZ.refuse_width(nnz);
+        }
+        let triangles = SIGNORINI_TRIANGLE_LOWER..=SIGNORINI_TRIANGLE_FULL;
+        let triangle = self.TRI.one_of(triangles, "0 (lower), 1 (upper) or 2 (all)")?;
+        self.check_begins(size, nnz)?;
+        Ok(SignoriniSparse {
+            index_bytes: I::BYTES,
+            index_base: 1,
+            triangle,
+            size,
+            nnz,
+            col_start: self.COLPTR.place.cast(),
+            row: self.ROWIND.place.cast(),
+            values: self.VALUES.place,
+            ..SignoriniSparse::zeros()
+        })
+    }
+
+    /// The begins of the columns, before ROWIND and VALUES are believed to be as long as NNZ says.
+    fn check_begins(&self, size: i64, nnz: i64) -> Outcome<()> {
+        let ends = |begins: &[I]| [begins[0], begins[begins.len() - 1]].map(I::into);
+        let [first, last] = self.COLPTR.entries(size + 1, ends)?;
+        if first != 1 {
+            let bytes = I::BYTES;
+            let wanted = format!("1: indices count from 1, in integers of {bytes} bytes");
+            return self.COLPTR.refuse_entry(0, format!("is {first}, it must be {wanted}"));
+        }
+        if last != nnz + 1 {
+            let wrong = format!("is {last}, it must be NNZ + 1 ({})", nnz + 1);
+            return self.COLPTR.refuse_entry(size, wrong);
+        }
+        Ok(())
+    }
+}
+
+/// `SLAVE(1,1)` of pairs that are general rows.
+const GENERAL_ROWS: i64 = -1;
+
+/// The arguments from SLAVE, the eleventh, to WEIGHT.
+struct Nodes<I> {
+    SLAVE: Integers<I>,
+    NMAST: Integers<I>,
+    MSTART: Integers<I>,
+    MASTER: Integers<I>,
+    WEIGHT: Argument<*const f64>,
+}
+
+impl<I: Integer> Nodes<I> {
+    /// Hands pairs of these nodes to `work` in the form of C.
+    fn with_pairs<T>(
+        &self,
+        (dim, pairs): (i32, i64),
+        normals: *const f64,
+        (ntan, tangents): (Integers<I>, *const f64),
+        work: impl FnOnce(*const SignoriniPairs) -> Outcome<T>,
+    ) -> Outcome<T> {
+        let first = self.SLAVE.numbers(pairs.min(1))?;
+        let is_general = first == [GENERAL_ROWS];
+        let slaves = if is_general { 0 } else { pairs * i64::from(dim) };
+        let slaves = self.SLAVE.numbers(slaves)?;
+        let masters = self.NMAST.count()?;
+        if is_general && masters == 0 {
+            let message = "SLAVE(1,1) is -1, which means general rows, but NMAST is 0: list all nodes of \
+                           the pairs in MASTER";
+            return Err(Failure::argument(self.NMAST.position, message));
+        }
+        let begins = self.begins(pairs, masters)?;
+        let nodes = self.MASTER.numbers(masters * i64::from(dim))?;
+        let given = ntan.count()?;
+        if given != 0 && given != pairs {
+            return ntan.refuse(format!("is {given}, it must be 0 or NPAIR ({pairs})"));
+        }
+        let mut view = SignoriniPairs {
+            dim,
+            count: pairs,
+            normals,
+            tangents: if given == 0 { null() } else { tangents },
+            ..SignoriniPairs::zeros()
+        };
+        let rows = (begins.as_ptr(), nodes.as_ptr(), self.WEIGHT.place);
+        if is_general {
+            (view.row_start, view.row_nodes, view.row_weights) = rows;
+        } else {
+            view.slaves = slaves.as_ptr();
+            if masters > 0 {
+                (view.master_start, view.masters, view.weights) = rows;
+            }
+        }
+        work(&raw const view)
+    }
+
+    /// MSTART; empty without masters.
+    fn begins(&self, pairs: i64, masters: i64) -> Outcome<Vec<i64>> {
+        if masters == 0 {
+            return Ok(Vec::new());
+        }
+        let begins = self.MSTART.numbers(pairs + 1)?;
+        let last = begins[pairs as usize];
+        if last != masters + 1 {
+            let wrong = format!("is {last}, it must be NMAST + 1 ({})", masters + 1);
+            return self.MSTART.refuse_entry(pairs, wrong);
+        }
+        Ok(begins)
     }
 }

@@ -14,8 +14,8 @@ use super::super::surface_settings::{
     SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE, SignoriniSurfaceSettings,
 };
 use super::arguments::{Argument, Integer, fill, run, write};
+use super::calls::{Integers, Matrix};
 use super::handles::{create, find, free};
-use super::sparse::{Integers, Matrix};
 
 entry! {
     sgsurf_ sgsurf_64_ calls [NDIM, NNODE, X, SLAVE, MASTER, DIST, HSURF],

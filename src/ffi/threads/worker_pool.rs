@@ -23,7 +23,7 @@ pub(in crate::ffi) fn with_threads<T>(threads: usize, memory: u64, body: impl Fn
     if threads == 1 {
         return with_workers(None, body);
     }
-    let board = Arc::new(Board::new(threads));
+    let board = Arc::new(Board { threads, ..Board::default() });
     let job = |number| {
         let board = Arc::clone(&board);
         Job::new(memory, Box::new(move || board.serve(number)))
@@ -60,6 +60,7 @@ struct Posted {
 unsafe impl Send for Posted {}
 
 /// Messages of the calling thread to the others, and of these to it.
+#[derive(Default)]
 struct Board {
     threads: usize,
     notes: Mutex<Notes>,
@@ -92,18 +93,6 @@ struct Notes {
 }
 
 impl Board {
-    fn new(threads: usize) -> Self {
-        Board {
-            threads,
-            notes: Mutex::default(),
-            posted: Condvar::new(),
-            ended: Condvar::new(),
-            next: AtomicUsize::new(0),
-            count: AtomicU64::new(0),
-            busy: AtomicUsize::new(0),
-        }
-    }
-
     fn notes(&self) -> MutexGuard<'_, Notes> {
         self.notes.lock().unwrap_or_else(PoisonError::into_inner)
     }
