@@ -147,7 +147,7 @@ pub fn columns_to_share(rows: usize) -> usize {
     if threads() == 1 { usize::MAX } else { (2.0 * FEW / reading(rows.max(1))).ceil() as usize }
 }
 
-/// The value of a mutex that each thread locks for a part of its own.
+/// The value of a mutex, also after a panic of a thread that had locked it.
 pub fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

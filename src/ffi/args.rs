@@ -3,12 +3,12 @@
 use libc::c_char;
 use std::cell::RefCell;
 use std::ffi::CStr;
-use std::fmt::{self, Display};
 use std::iter::repeat;
+use std::ops::Deref;
 use std::path::Path;
 
 use super::guard::{self, Failure, Outcome, refused};
-use crate::error::{Error, entry};
+use super::place::Place;
 use crate::linalg::matrix::required_length;
 use crate::problem;
 
@@ -43,24 +43,6 @@ struct Range {
     written: bool,
 }
 
-/// Where something stands among the arguments of a call, with its name in sentences.
-#[derive(Clone, Copy)]
-struct Place {
-    position: i32,
-    name: &'static str,
-    /// The field of the structure of this name; empty: it is the argument itself.
-    field: &'static str,
-}
-
-impl Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.field {
-            "" => f.write_str(self.name),
-            field => write!(f, "{}: {field}", self.name),
-        }
-    }
-}
-
 /// An argument of the call, or an array in its structure.
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
@@ -90,19 +72,14 @@ impl Arrays {
 
     /// The argument number `position`.
     pub(super) fn at(&self, position: i32, name: &'static str) -> At<'_> {
-        At { arrays: self, place: Place { position, name, field: "" }, in_reserve: IN_RESERVE }
+        At { arrays: self, place: Place::of(position, name), in_reserve: IN_RESERVE }
     }
 
     /// Dimension, pairs and unknowns, from two arguments with these numbers.
-    pub(super) fn sizes(
-        &self,
-        [at_dim, at_pairs]: [i32; 2],
-        dim: i32,
-        pairs: i64,
-    ) -> Outcome<(usize, usize, usize)> {
-        let dim = problem::checked_dim(dim).map_err(refused(|_| at_dim))?;
-        let pairs = self.at(at_pairs, "pairs").size(pairs)?;
-        Ok((dim, pairs, problem::unknowns(dim, pairs).map_err(refused(|_| at_pairs))?))
+    pub(super) fn sizes(&self, at: [i32; 2], dim: i32, pairs: i64) -> Outcome<[usize; 3]> {
+        let dim = problem::checked_dim(dim).map_err(refused(|_| at[0]))?;
+        let pairs = self.at(at[1], "pairs").size(pairs)?;
+        Ok([dim, pairs, problem::unknowns(dim, pairs).map_err(refused(|_| at[1]))?])
     }
 
     /// Refuses an output that shares memory with another array.
@@ -122,10 +99,18 @@ impl Arrays {
     }
 }
 
+impl Deref for At<'_> {
+    type Target = Place;
+
+    fn deref(&self) -> &Place {
+        &self.place
+    }
+}
+
 impl<'a> At<'a> {
-    /// Another name of the argument.
+    /// The same argument under another name.
     pub(super) fn named(self, name: &'static str) -> Self {
-        At { place: Place { name, ..self.place }, ..self }
+        At { place: Place::of(self.position, name), ..self }
     }
 
     /// A field of the argument, a structure.
@@ -133,45 +118,19 @@ impl<'a> At<'a> {
         At { place: Place { field, ..self.place }, ..self }
     }
 
+    /// A structure of an array of them.
+    pub(super) fn number(self, number: usize) -> Self {
+        At { place: Place { number: Some(number), ..self.place }, ..self }
+    }
+
     /// It is a matrix. A call makes few copies of one, and holds memory in reserve for them by itself.
     pub(super) fn matrix(self) -> Self {
         At { in_reserve: 0, ..self }
     }
 
-    /// The number of the argument.
-    pub(super) fn position(self) -> i32 {
-        self.place.position
-    }
-
     /// The next argument, of the same name.
     pub(super) fn next(self) -> Self {
-        At { place: Place { position: self.place.position + 1, ..self.place }, ..self }
-    }
-
-    /// Refuses the argument: its name, and what is wrong.
-    pub(super) fn refuse<T>(self, wrong: impl Display) -> Outcome<T> {
-        Err(Failure::argument(self.place.position, format!("{} {wrong}", self.place)))
-    }
-
-    /// Refuses the argument for something in it, a sentence of its own behind the name.
-    pub(super) fn refuse_part<T>(self, wrong: impl Display) -> Outcome<T> {
-        Err(Failure::argument(self.place.position, format!("{}: {wrong}", self.place)))
-    }
-
-    /// Refuses the argument for an error of the library about something in it.
-    pub(super) fn refuse_error<T>(self, error: &Error) -> Outcome<T> {
-        self.refuse_part(error.message().marked())
-    }
-
-    /// Refuses NULL, unless there are no elements.
-    pub(super) fn refuse_null<T>(self, pointer: *const T, length: usize) -> Outcome<()> {
-        if length > 0 && pointer.is_null() { self.refuse("is NULL") } else { Ok(()) }
-    }
-
-    /// A size that must not be negative.
-    pub(super) fn size(self, value: i64) -> Outcome<usize> {
-        let wrong = |_| self.refuse(format!("is {value}, it must not be negative"));
-        usize::try_from(value).or_else(wrong)
+        At { place: Place { position: self.position + 1, ..self.place }, ..self }
     }
 
     /// An array to read, which must not be NULL unless it has no elements.
@@ -196,29 +155,22 @@ impl<'a> At<'a> {
     ) -> Outcome<(&'a [f64], usize)> {
         let at_ld = self.next().named(ld_name);
         let ld = at_ld.size(ld)?;
-        let length = required_length(self.place.name, n, ld)
-            .map_err(|message| Failure::argument(at_ld.place.position, message))?;
+        let length = required_length(self.name, n, ld)
+            .map_err(|message| Failure::argument(at_ld.position, message))?;
         Ok((self.matrix().required(pointer, length)?, ld))
     }
 
     /// An array of indices that count from `base`, counted from 0.
-    pub(super) fn indices(
-        self,
-        first: *const i64,
-        length: usize,
-        base: i64,
-    ) -> Outcome<Vec<usize>> {
-        self.shifted(self.required(first, length)?, base)
+    pub(super) fn indices(self, list: *const i64, count: usize, base: i64) -> Outcome<Vec<usize>> {
+        self.shifted(self.required(list, count)?, base)
     }
 
     /// Indices that count from `base`, counted from 0.
     pub(super) fn shifted(self, values: &[i64], base: i64) -> Outcome<Vec<usize>> {
-        let shift = |(i, &value): (usize, &i64)| {
-            value.checked_sub(base).and_then(|value| usize::try_from(value).ok()).ok_or_else(|| {
-                let place = entry(&self.place.to_string(), [i]);
-                let message = format!("{place} is {value}, less than {base}");
-                Failure::argument(self.place.position, message)
-            })
+        let shift = |(i, value): (usize, &i64)| {
+            let shifted = value.checked_sub(base).and_then(|value| usize::try_from(value).ok());
+            let refuse = || self.refuse_entry(i, format!("is {value}, less than {base}"));
+            shifted.map_or_else(refuse, Ok)
         };
         values.iter().enumerate().map(shift).collect()
     }

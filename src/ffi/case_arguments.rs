@@ -9,11 +9,13 @@ use crate::error::Argument::{
     ReferenceSlip, Size,
 };
 use crate::model::{LoadCase, Model};
-use crate::problem::{ContactData, FrictionLaw};
+use crate::problem::ContactData;
 
-const CONDENSED: [Argument; 9] =
+/// The arguments from `dim` to `slip0`, in their order.
+pub(super) const CONDENSED: [Argument; 9] =
     [Dimension, Size, Matrix, LeadingDimension, Load, Gap, LawChoice, Law, ReferenceSlip];
 
+/// Those from `f` to `slip0` of a load case.
 const CASE: [Argument; 6] = [Load, Prescribed, Gap, LawChoice, Law, ReferenceSlip];
 
 /// The arguments from `dim` to `slip0`, as the host hands them over.
@@ -32,13 +34,10 @@ pub(super) struct CondensedArguments {
 }
 
 impl CondensedArguments {
-    /// How many they are.
-    pub(super) const COUNT: i32 = CONDENSED.len() as i32;
-
     /// The arrays as slices, noted in `arrays`.
     pub(super) fn read<'h>(&self, arrays: &'h Arrays) -> Outcome<ContactData<'h>> {
         let at = |offset, name| arrays.at(self.first + offset, name);
-        let (dim, pairs, n) = arrays.sizes([self.first, self.first + 1], self.dim, self.pairs)?;
+        let [dim, pairs, n] = arrays.sizes([self.first, self.first + 1], self.dim, self.pairs)?;
         let (stiffness, ld) = at(2, "K").square(self.K, ("ldk", self.ldk), n)?;
         Ok(ContactData {
             dim,
@@ -50,12 +49,6 @@ impl CondensedArguments {
             law: law::read((at(6, "law"), self.law), (at(7, "friction"), self.friction), pairs)?,
             reference_slip: at(8, "slip0").optional(self.slip0, n - pairs)?,
         })
-    }
-
-    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
-    /// is not here.
-    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
-        number_of(argument, self.first, &CONDENSED).unwrap_or(otherwise)
     }
 }
 
@@ -95,14 +88,14 @@ impl CaseArguments {
         let slips = (model.dim() - 1) * model.pairs();
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
-        let cases = LoadCases {
-            model,
+        let all = LoadCase {
             load: at(0, "f").matrix().required(self.f, host)?,
             prescribed: at(1, "prescribed").optional(self.prescribed, fixed)?,
             gap: at(2, "gap").required(self.gap, pairs)?,
             law: law::read((at(3, "law"), self.law), (at(4, "friction"), self.friction), pairs)?,
-            slip0: at(5, "slip0").optional(self.slip0, slips)?,
+            reference_slip: at(5, "slip0").optional(self.slip0, slips)?,
         };
+        let cases = LoadCases { model, all };
         guard::reserve_estimate(cases.memory_of_ties())?;
         Ok(cases)
     }
@@ -121,30 +114,27 @@ impl CaseArguments {
 /// The data of several load cases, a column for each.
 pub(super) struct LoadCases<'a> {
     model: &'a Model,
-    load: &'a [f64],
-    prescribed: Option<&'a [f64]>,
-    gap: &'a [f64],
-    law: FrictionLaw<'a>,
-    slip0: Option<&'a [f64]>,
+    all: LoadCase<'a>,
 }
 
 impl<'a> LoadCases<'a> {
     /// Most bytes that a case takes beyond [`Model::memory`].
     pub(super) fn memory_of_ties(&self) -> u64 {
-        self.model.memory_of_ties(self.law)
+        self.model.memory_of_ties(self.all.law)
     }
 
     /// The load case number `case`.
     pub(super) fn case(&self, case: usize) -> LoadCase<'a> {
-        let (pairs, fixed) = (self.model.pairs(), self.model.fixed_count());
-        let slips = (self.model.dim() - 1) * pairs;
+        let LoadCases { model, all } = self;
+        let (pairs, fixed) = (model.pairs(), model.fixed_count());
+        let slips = (model.dim() - 1) * pairs;
         let column = |array: &'a [f64], length: usize| &array[length * case..length * (case + 1)];
         LoadCase {
-            load: column(self.load, self.model.host_size()),
-            prescribed: self.prescribed.map(|values| column(values, fixed)),
-            gap: column(self.gap, pairs),
-            law: self.law.with_values(column(self.law.values(), self.law.parameters() * pairs)),
-            reference_slip: self.slip0.map(|slip0| column(slip0, slips)),
+            load: column(all.load, model.host_size()),
+            prescribed: all.prescribed.map(|values| column(values, fixed)),
+            gap: column(all.gap, pairs),
+            law: all.law.with_values(column(all.law.values(), all.law.parameters() * pairs)),
+            reference_slip: all.reference_slip.map(|slip0| column(slip0, slips)),
         }
     }
 }

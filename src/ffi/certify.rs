@@ -1,6 +1,6 @@
 //! The certificate of displacements from any origin, and the proof that a solution exists next to them.
 
-use super::args::c_entry;
+use super::args::{At, c_entry};
 use super::case_arguments::CaseArguments;
 use super::guard::{Failure, Outcome, refused};
 use super::model::SignoriniModel;
@@ -11,7 +11,7 @@ use super::status::{
     SIGNORINI_STATUS_NOT_A_SOLUTION, SIGNORINI_STATUS_NOT_PROVED, SIGNORINI_STATUS_SOLVED, remember,
 };
 use crate::certificate::Certificate;
-use crate::error::{Argument, entry};
+use crate::error::Argument;
 use crate::law::State;
 use crate::settings::check_tolerance;
 
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn signorini_model_certify(
     const MEASURED: i32 = 9;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let case = given.read(arrays, model, 1, 0)?.case(0);
         check_tolerance("tolerance", tolerance)
             .map_err(|message| Failure::argument(MEASURED - 1, message))?;
@@ -113,15 +113,16 @@ pub unsafe extern "C" fn signorini_model_prove(
     const MEASURED: i32 = 8;
     let given = CaseArguments { first: 2, f, prescribed, gap, law, friction, slip0 };
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let case = given.read(arrays, model, 1, 0)?.case(0);
         let d = arrays.at(MEASURED, "d").required(d, model.dim() * model.pairs())?;
-        let state = arrays.at(STATE, "state").optional(state, model.pairs())?;
+        let at_state = arrays.at(9, "state");
+        let state = at_state.optional(state, model.pairs())?;
         let force = arrays.at(10, "F").optional_output(F, d.len())?;
         let radius_d = arrays.at(11, "radius_d").optional_output(radius_d, d.len())?;
         let radius_force = arrays.at(12, "radius_F").optional_output(radius_F, d.len())?;
         arrays.check_overlap()?;
-        let states = state.map(states).transpose()?;
+        let states = state.map(|codes| states(at_state, codes)).transpose()?;
         let position = |argument| given.position(argument, MEASURED);
         let proof = model.prove(&case, d, states.as_deref()).map_err(refused(position))?;
         let proof = proof.as_ref();
@@ -136,15 +137,10 @@ pub unsafe extern "C" fn signorini_model_prove(
     })
 }
 
-/// Number of `state` among the arguments.
-const STATE: i32 = 9;
-
-fn states(codes: &[i32]) -> Outcome<Vec<State>> {
+fn states(at: At<'_>, codes: &[i32]) -> Outcome<Vec<State>> {
     let state = |(pair, code): (usize, &i32)| {
-        State::numbered(*code).ok_or_else(|| {
-            let place = entry("state", [pair]);
-            Failure::argument(STATE, place + &format!(" is {code}, it must be 0, 1 or 2"))
-        })
+        let refuse = || at.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
+        State::numbered(*code).map_or_else(refuse, Ok)
     };
     codes.iter().enumerate().map(state).collect()
 }

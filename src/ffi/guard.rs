@@ -20,7 +20,7 @@ pub(super) type Outcome<T> = Result<T, Failure>;
 pub(super) struct Failure {
     /// The status.
     pub(super) code: i32,
-    message: Message,
+    pub(super) message: Message,
 }
 
 impl Failure {
@@ -32,12 +32,6 @@ impl Failure {
     /// This failure with an explanation.
     pub(super) fn explained(self, why: &str) -> Self {
         let message = format!("{}: {why}", self.message.marked());
-        Failure { message: message.into(), ..self }
-    }
-
-    /// This failure in one of several structures.
-    pub(super) fn within(self, structure: &str) -> Self {
-        let message = format!("{structure}: {}", self.message.marked());
         Failure { message: message.into(), ..self }
     }
 
@@ -119,8 +113,7 @@ pub(super) fn prepare_thread() -> Outcome<()> {
     }
     if !READY.get() {
         reserve(products::MOST)?;
-        let refused = |_| Failure::no_reserve(products::MOST);
-        products::prepare().map_err(refused)?;
+        products::prepare().map_err(|_| Failure::no_reserve(products::MOST))?;
         READY.set(true);
     }
     Ok(())

@@ -3,10 +3,10 @@
 use libc::c_char;
 
 use super::args::{Arrays, At, c_entry};
-use super::guard::{Failure, Outcome, refused};
+use super::guard::{Outcome, refused};
 use super::surface_fields::{pair_results, scatter};
 use super::surface_new::SignoriniSurfacePairs;
-use crate::error::{Argument, index};
+use crate::error::Argument;
 use crate::file::{self, Field, Mesh, Values};
 use crate::problem;
 use crate::surface::NodalFields;
@@ -86,9 +86,8 @@ pub unsafe extern "C" fn signorini_mesh_write(
                 Some(zones) => zones.displacement(at_u, u)?,
                 None => at_u.optional(u, mesh.coordinates.len())?.map(<[f64]>::to_vec),
             };
-            let displacement = displacement.iter();
-            let displacement =
-                displacement.map(|u| Field { name: "displacement", values: Values::Vectors(u) });
+            let values = displacement.as_deref().map(Values::Vectors).into_iter();
+            let displacement = values.map(|values| Field { name: "displacement", values });
             let of_zones = zones.iter().flat_map(Zones::fields);
             let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
             let (n_fields, at) = (arrays.at(6, "n_fields").size(n_fields)?, arrays.at(7, "fields"));
@@ -201,8 +200,8 @@ pub(super) struct Zones {
     dofs: Vec<usize>,
     /// Pressure, clearance, traction and slip.
     reals: [Vec<f64>; 4],
-    states: Vec<i32>,
-    has_states: bool,
+    /// `None` if a zone has none.
+    states: Option<Vec<i32>>,
 }
 
 impl Zones {
@@ -217,23 +216,20 @@ impl Zones {
         let at = arrays.at(ZONES, "zones");
         let mut all: Option<Zones> = None;
         for (number, zone) in at.all(zones, count)?.into_iter().enumerate() {
-            let refuse = |message: String| at.refuse(format!("{}: {message}", index(number)));
-            let within = |failure: Failure| failure.within(&format!("zones {}", index(number)));
-            if zone.reserved != 0 {
-                return refuse(format!("reserved is {}, it must be 0", zone.reserved));
-            }
-            let contact = at.named("contact").handle(zone.contact).map_err(within)?;
+            let at = at.number(number);
+            at.check_reserved(zone.reserved)?;
+            let contact = at.field("contact").handle(zone.contact)?;
             let of = (contact.found.dim, contact.nodes);
             if of != (dim, nodes) {
                 let (of_dim, of_nodes) = of;
-                return refuse(format!(
+                return at.refuse_part(format!(
                     "its pairs are of {of_nodes} nodes of dim {of_dim}, the mesh has {nodes} nodes of dim {dim}"
                 ));
             }
             let all = all.get_or_insert_with(|| Zones::empty(contact));
             if contact.dofs() != all.dofs {
                 let wrong = "it numbers degrees of freedom otherwise than the first zone";
-                return refuse(wrong.into());
+                return at.refuse_part(wrong);
             }
             all.add(arrays, contact, zone)?;
         }
@@ -245,8 +241,7 @@ impl Zones {
         Zones {
             dofs: contact.dofs(),
             reals: [1, 1, dim, dim].map(|each| vec![0.0; each * nodes]),
-            states: vec![NO_STATE; nodes],
-            has_states: true,
+            states: Some(vec![NO_STATE; nodes]),
         }
     }
 
@@ -267,10 +262,12 @@ impl Zones {
                 all[at..at + of_node.len()].copy_from_slice(of_node);
             });
         }
+        if let (Some(states), Some(state)) = (&mut self.states, state) {
+            nodes.iter().zip(pairs).for_each(|(node, pair)| states[*node] = state[*pair]);
+        }
         // A zone without pairs has no states to give.
-        self.has_states &= !zone.state.is_null() || contact.arrays.count == 0;
-        if let Some(state) = state {
-            nodes.iter().zip(pairs).for_each(|(node, pair)| self.states[*node] = state[*pair]);
+        if zone.state.is_null() && contact.arrays.count > 0 {
+            self.states = None;
         }
         Ok(())
     }
@@ -291,7 +288,7 @@ impl Zones {
             ("traction", Values::Vectors(traction)),
             ("slip", Values::Vectors(slip)),
         ];
-        let states = self.has_states.then_some(("state", Values::Integers(&self.states)));
+        let states = self.states.as_ref().map(|states| ("state", Values::Integers(states)));
         reals.into_iter().chain(states).map(|(name, values)| Field { name, values })
     }
 }

@@ -32,6 +32,7 @@ mod numbers;
 mod operator;
 mod outputs;
 mod pairs;
+mod place;
 mod problem_file;
 mod report;
 mod reserve;

@@ -38,12 +38,7 @@ impl SignoriniModel {
 
 impl Arrays {
     /// The first argument, a model.
-    pub(super) fn model(&self, model: *const SignoriniModel) -> Outcome<&Model> {
-        Ok(&self.model_handle(model)?.model)
-    }
-
-    /// As [`Self::model`], with what calls leave to the next ones.
-    pub(super) fn model_handle(&self, model: *const SignoriniModel) -> Outcome<&SignoriniModel> {
+    pub(super) fn model(&self, model: *const SignoriniModel) -> Outcome<&SignoriniModel> {
         guard::prepare_thread()?;
         self.at(1, "model").handle(model)
     }
@@ -102,7 +97,7 @@ pub unsafe extern "C" fn signorini_model_view(
     data: *mut SignoriniModelData,
 ) -> i32 {
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let shown = SignoriniModelData {
             struct_size: size_of::<SignoriniModelData>() as u32,
             dim: model.dim() as i32,
@@ -138,7 +133,7 @@ pub unsafe extern "C" fn signorini_model_recover(
     u: *mut f64,
 ) -> i32 {
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let cases = arrays.at(2, "cases").size(cases)?;
         let (host, fixed) = (model.host_size(), model.fixed_count());
         let n = model.dim() * model.pairs();
@@ -184,7 +179,7 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
     nodal: *mut f64,
 ) -> i32 {
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let n = model.dim() * model.pairs();
         let force = arrays.at(2, "F").required(F, n)?;
         let out = arrays.at(3, "nodal").output(nodal, model.host_size())?;
@@ -207,7 +202,7 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
     load: *mut f64,
 ) -> i32 {
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let given = arrays.at(2, "f").required(f, model.host_size())?;
         let values = arrays.at(3, "prescribed").optional(prescribed, model.fixed_count())?;
         let out = arrays.at(4, "load").output(load, model.dim() * model.pairs())?;

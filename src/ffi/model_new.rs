@@ -30,7 +30,7 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.at(6, "model").out_pointer(model)?;
-        let (dim, pairs, n) = arrays.sizes([1, 2], dim, pairs)?;
+        let [dim, pairs, n] = arrays.sizes([1, 2], dim, pairs)?;
         let k = arrays.at(3, "K").square(K, ("ldk", ldk), n)?;
         let received = SignoriniSettings::read(arrays.at(5, "settings"), settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
@@ -67,7 +67,7 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.at(8, "model").out_pointer(model)?;
-        let (dim, pairs, n) = arrays.sizes([1, 2], dim, pairs)?;
+        let [dim, pairs, n] = arrays.sizes([1, 2], dim, pairs)?;
         let first = arrays.at(3, "K_A").square(K_A, ("lda", lda), n)?;
         let second = arrays.at(5, "K_B").square(K_B, ("ldb", ldb), n)?;
         let received = SignoriniSettings::read(arrays.at(7, "settings"), settings)?;
@@ -155,7 +155,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.at(5, "model").out_pointer(model)?;
-        let (dim, pairs, n) = arrays.sizes([1, 2], dim, pairs)?;
+        let [dim, pairs, n] = arrays.sizes([1, 2], dim, pairs)?;
         let (w, ld) = arrays.at(3, "W").square(W, ("ldw", ldw), n)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
         place.fill(Model::flexibility(dim, pairs, w, ld), of_matrices)
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.at(4, "model").out_pointer(model)?;
-        let (dim, pairs, _) = arrays.sizes([1, 2], dim, pairs)?;
+        let [dim, pairs, _] = arrays.sizes([1, 2], dim, pairs)?;
         let (_, w) = SignoriniSparse::read(arrays.at(3, "W"), W)?;
         place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
     })

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use super::args::c_entry;
 use super::case_arguments::{CaseArguments, LoadCases, times};
-use super::guard::refused;
+use super::guard::{Failure, refused};
 use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs, SignoriniExtra};
 use super::report::SignoriniReport;
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn signorini_model_solve(
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     let wanted = OutputArguments { d, F, state, status, report, extra };
     c_entry!(|arrays| {
-        let handle = arrays.model_handle(model)?;
+        let handle = arrays.model(model)?;
         let model = &handle.model;
         let cases = arrays.at(2, "cases").size(cases)?;
         let received = SignoriniSettings::read(arrays.at(SETTINGS, "settings"), settings)?;
@@ -217,13 +217,13 @@ impl Block<'_> {
                 (status, is_told(&solution).then_some(solution.message))
             }
             Err(error) => {
-                let message = error.message();
                 let position = |argument| {
                     let forces = i32::from(self.model.starts_from_forces());
                     let own = if argument == Argument::Start { START + forces } else { SETTINGS };
                     self.given.position(argument, own)
                 };
-                (refused(position)(error).code, Some(message))
+                let Failure { code, message } = refused(position)(error);
+                (code, Some(message))
             }
         }
     }

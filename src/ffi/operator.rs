@@ -205,7 +205,7 @@ pub unsafe extern "C" fn signorini_model_new_operator(
 /// The model of products and solutions of the pairs, or of products and a preconditioner on all unknowns.
 fn of_functions(arrays: &Arrays, given: SignoriniOperator) -> Outcome<Result<Model, Error>> {
     let at = arrays.at(1, "K");
-    let (dim, pairs, n) = arrays.sizes([1, 1], given.dim, given.pairs)?;
+    let [dim, pairs, n] = arrays.sizes([1, 1], given.dim, given.pairs)?;
     let unknowns = at.named("unknowns").size(given.unknowns)?;
     if given.stiffness.is_none() {
         return at.refuse_part("stiffness is NULL");

@@ -99,7 +99,8 @@ impl SignoriniPairs {
         let (dofs, numbers) = if nodes.by_dof { (masters, entries) } else { (entries, masters) };
         let dofs = at_dofs.required(nodes.dofs, dofs)?;
         let numbers = at_numbers.required(nodes.numbers, numbers)?;
-        let equations = SignoriniEquations::read(at.named("equations"), given.equations, base)?;
+        let ([dependent, start, terms], coefficients) =
+            SignoriniEquations::read(at.named("equations"), given.equations, base)?;
         let pairs = ContactPairs {
             dim,
             count,
@@ -110,7 +111,12 @@ impl SignoriniPairs {
             vectors: nodes.by_dof.then_some(numbers),
             normals: at.named("normals").required(given.normals, components)?,
             tangents: at.named("tangents").optional(given.tangents, components)?,
-            equations: equations.view(),
+            equations: Equations {
+                dependent: &dependent,
+                start: &start,
+                dofs: &terms,
+                coefficients,
+            },
         };
         to(&pairs)
     }
@@ -198,40 +204,24 @@ pub struct SignoriniEquations {
 // SAFETY: led by its size; numbers and pointers.
 unsafe impl Structure for SignoriniEquations {}
 
-/// Equations of the caller, with degrees of freedom counted from 0.
-#[derive(Default)]
-pub(super) struct GivenEquations<'h> {
-    dependent: Vec<usize>,
-    start: Vec<usize>,
-    dofs: Vec<usize>,
-    coefficients: &'h [f64],
-}
-
 impl SignoriniEquations {
-    /// The caller's equations; none if the pointer is NULL.
-    pub(super) fn read(at: At<'_>, pointer: *const Self, base: i64) -> Outcome<GivenEquations<'_>> {
+    /// Dependents, starts and degrees of freedom of the caller's equations, counted from 0, and coefficients; none if
+    /// the pointer is NULL.
+    fn read(at: At<'_>, pointer: *const Self, base: i64) -> Outcome<([Vec<usize>; 3], &[f64])> {
         if pointer.is_null() {
-            return Ok(GivenEquations::default());
+            return Ok(Default::default());
         }
         let given = at.required_copy(pointer)?;
         at.check_reserved(given.reserved)?;
         let count = at.field("count").size(given.count)?;
         if count == 0 {
-            return Ok(GivenEquations::default());
+            return Ok(Default::default());
         }
         let dependent = at.field("dependent").indices(given.dependent, count, base)?;
         let start = at.field("start").indices(given.start, count.saturating_add(1), base)?;
         let terms = start[count];
         let dofs = at.field("dofs").indices(given.dofs, terms, base)?;
         let coefficients = at.field("coefficients").required(given.coefficients, terms)?;
-        Ok(GivenEquations { dependent, start, dofs, coefficients })
-    }
-}
-
-impl GivenEquations<'_> {
-    /// The equations for the library.
-    pub(super) fn view(&self) -> Equations<'_> {
-        let GivenEquations { dependent, start, dofs, coefficients } = self;
-        Equations { dependent, start, dofs, coefficients }
+        Ok(([dependent, start, dofs], coefficients))
     }
 }

@@ -4,7 +4,7 @@ use libc::c_char;
 use std::ffi::CString;
 
 use super::args::c_entry;
-use super::case_arguments::{CaseArguments, CondensedArguments};
+use super::case_arguments::{CONDENSED, CaseArguments, CondensedArguments};
 use super::guard::{self, number_of, refused};
 use super::handle::release;
 use super::model::SignoriniModel;
@@ -158,17 +158,15 @@ pub unsafe extern "C" fn signorini_problem_write(
     slip0: *const f64,
     remark: *const c_char,
 ) -> i32 {
-    const FIRST: i32 = 2;
-    const REMARK: i32 = FIRST + CondensedArguments::COUNT;
-    let given =
-        CondensedArguments { first: FIRST, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
+    const REMARK: i32 = 11;
+    let given = CondensedArguments { first: 2, dim, pairs, K, ldk, f, gap, law, friction, slip0 };
     c_entry!(|arrays| {
         let path = arrays.at(1, "path").path(path)?;
         let data = given.read(arrays)?;
         let remark = arrays.at(REMARK, "remark").text(remark)?;
         ContactProblem::on_checked_matrix(data)
             .and_then(|problem| file::write(path, &problem, remark))
-            .map_err(refused(|argument| given.position(argument, REMARK)))?;
+            .map_err(refused(|wrong| number_of(wrong, 2, &CONDENSED).unwrap_or(REMARK)))?;
         Ok(0)
     })
 }
@@ -228,7 +226,7 @@ pub unsafe extern "C" fn signorini_model_write(
     const REMARK: i32 = 9;
     let given = CaseArguments { first: 3, f, prescribed, gap, law, friction, slip0 };
     c_entry!(|arrays| {
-        let model = arrays.model(model)?;
+        let model = &arrays.model(model)?.model;
         let path = arrays.at(2, "path").path(path)?;
         let case = given.read(arrays, model, 1, 0)?.case(0);
         let remark = arrays.at(REMARK, "remark").text(remark)?;

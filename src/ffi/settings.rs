@@ -185,7 +185,7 @@ impl SignoriniSettings {
             memory_limit,
             full_space: self.full_space != 0,
         };
-        settings.validate().map_err(refused(|_| at.position()))?;
+        settings.validate().map_err(refused(|_| at.position))?;
         Ok(ParsedSettings {
             settings,
             warm_start: match self.warm_start {

@@ -3,7 +3,7 @@
 use std::ptr::null_mut;
 
 use super::args::c_entry;
-use super::case_arguments::CondensedArguments;
+use super::case_arguments::{CONDENSED, CondensedArguments};
 use super::guard::{self, number_of, refused};
 use super::numbers::Numbered;
 use super::outputs::{OutputArguments, SignoriniExtra};
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn signorini_solve(
 
         let position = |argument| {
             let own = if argument == Argument::Start { START } else { SETTINGS };
-            given.position(argument, own)
+            number_of(argument, 1, &CONDENSED).unwrap_or(own)
         };
         let n = data.dim * data.pairs;
         guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;

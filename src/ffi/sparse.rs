@@ -66,10 +66,8 @@ impl SignoriniSparse {
             return Ok(None);
         }
         let n = at.field("size").size(self.size)?;
-        let wide = match self.indices(at, "order", self.order, n)? {
-            Indices::Narrow(order) => order.iter().map(|&i| i64::from(i)).collect(),
-            Indices::Wide(order) => order.to_vec(),
-        };
+        let order = self.indices(at, "order", self.order, n)?;
+        let wide: Vec<i64> = (0..n).map(|i| order.get(i)).collect();
         at.named("order").shifted(&wide, i64::from(self.index_base)).map(Some)
     }
 
@@ -104,7 +102,7 @@ impl SignoriniSparse {
         let row = given.indices(at, "row", given.row, nnz)?;
         let matrix = SparseMatrix { size, col_start, row, values, index_base, triangle };
         // Before other indices: a wrong index base is most likely that of all of them.
-        matrix.check_col_start().map_err(refused(|_| at.position()))?;
+        matrix.check_col_start().map_err(refused(|_| at.position))?;
         Ok((given, matrix))
     }
 }

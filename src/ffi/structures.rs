@@ -5,7 +5,6 @@ use std::ptr::null_mut;
 use super::args::At;
 use super::guard::Outcome;
 use super::numbers::Numbered;
-use crate::error::index;
 
 /// Smallest structure of any version: its size, the first word and a number. Fields that an older
 /// program does not have come after it.
@@ -94,19 +93,15 @@ impl<'a> At<'a> {
     }
 
     /// An array of structures that the call writes; NULL: none is wanted.
-    pub(super) fn out_structures<T>(
-        self,
-        first: *mut T,
-        count: usize,
-    ) -> Outcome<OutStructures<T>> {
-        if first.is_null() || count == 0 {
+    pub(super) fn out_structures<T>(self, list: *mut T, count: usize) -> Outcome<OutStructures<T>> {
+        if list.is_null() || count == 0 {
             return Ok(OutStructures { first: null_mut(), stride: 0 });
         }
-        let stride = self.stride(first, count)?;
+        let stride = self.stride(list, count)?;
         // An overflow is refused with the array, which cannot have so many entries.
         let bytes = stride.saturating_mul(count);
-        self.note(first.cast_const().cast::<u8>(), bytes, true)?;
-        Ok(OutStructures { first, stride })
+        self.note(list.cast_const().cast::<u8>(), bytes, true)?;
+        Ok(OutStructures { first: list, stride })
     }
 
     /// Fills the caller's structure of `struct_size` bytes, the next argument, with the defaults and the size.
@@ -161,7 +156,8 @@ impl<'a> At<'a> {
         for i in 1..count {
             let size = self.structure_size(first.wrapping_byte_add(stride * i))?;
             if size != stride {
-                return self.refuse(format!("{}: struct_size is {size}, not {stride}", index(i)));
+                let wrong = format!("struct_size is {size}, not {stride}");
+                return self.number(i).refuse_part(wrong);
             }
         }
         Ok(stride)

@@ -229,7 +229,7 @@ pub unsafe extern "C" fn signorini_surface_penetration(
         let monitor = &mut Monitor::new(&Settings::default(), None);
         let found = kept.penetration(&contact.found, moved, monitor).map_err(refused(|_| 2))?;
         let counted =
-            |index: Option<usize>| index.map_or(-1, |index| index as i64 + contact.base());
+            |index: Option<usize>| index.map_or(-1, |index| index as i64 + contact.numbering.base);
         let told = SignoriniPenetration {
             struct_size: size_of::<SignoriniPenetration>() as u32,
             points: i32::try_from(found.count).unwrap_or(i32::MAX),

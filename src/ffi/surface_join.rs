@@ -6,14 +6,13 @@ use std::ptr::null;
 
 use libc::c_char;
 
-use super::args::{Arrays, c_entry};
+use super::args::{At, c_entry};
 use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::numbers::Numbered;
 use super::surface::SignoriniFaces;
 use super::surface_fields::{pair_results, position};
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
-use crate::error::index;
 use crate::law::State;
 use crate::problem::Law;
 use crate::surface::{ContactZone, join_zones, summary_of_zones};
@@ -62,12 +61,10 @@ pub unsafe extern "C" fn signorini_surface_join(
     c_entry!(|arrays| {
         let place = arrays.at(3, "joined").out_pointer(joined)?;
         let at_count = arrays.at(1, "n_zones");
-        let given = arrays.at(ZONES, "zones").all(zones, at_count.size(n_zones)?)?;
-        let zones: Vec<Zone<'_>> = given
-            .into_iter()
-            .enumerate()
-            .map(|(number, zone)| Zone::read(arrays, number, zone))
-            .collect::<Result<_, _>>()?;
+        let at = arrays.at(ZONES, "zones");
+        let given = at.all(zones, at_count.size(n_zones)?)?.into_iter().enumerate();
+        let zones = given.map(|(number, zone)| Zone::read(at.number(number), zone));
+        let zones: Vec<Zone<'_>> = zones.collect::<Result<_, _>>()?;
         guard::reserve(zones.iter().map(|zone| zone.contact.bytes()).sum())?;
         let Some(first) = zones.first() else {
             return at_count.refuse("is 0, there must be a zone");
@@ -81,11 +78,11 @@ pub unsafe extern "C" fn signorini_surface_join(
                 ZONES,
                 format!(
                     "zone '{}' is of another mesh than zone '{}', or numbers nodes or degrees of freedom otherwise",
-                    zone.name, first.name
+                    zone.part.name, first.part.name
                 ),
             ));
         }
-        let parts: Vec<ContactZone<'_>> = zones.iter().map(Zone::part).collect();
+        let parts: Vec<ContactZone<'_>> = zones.iter().map(|zone| zone.part).collect();
         let joined = join_zones(&parts).map(|found| {
             let (nodes, numbering) = (first.contact.nodes, first.contact.numbering.clone());
             SignoriniSurfacePairs::new(found, nodes, numbering, joined_zones(&zones))
@@ -169,48 +166,42 @@ fn scientific(number: f64) -> String {
 
 /// A zone as the host gave it.
 struct Zone<'h> {
-    name: &'h str,
+    part: ContactZone<'h>,
     contact: &'h SignoriniSurfacePairs,
     /// The number of its law, and three parameters.
     friction: [f64; 4],
 }
 
 impl<'h> Zone<'h> {
-    fn read(arrays: &'h Arrays, number: usize, given: &SignoriniContactZone) -> Outcome<Self> {
-        let of_zone = format!("zones {}", index(number));
-        let within = |failure: Failure| failure.within(&of_zone);
-        let contact = arrays.at(ZONES, "contact").handle(given.contact).map_err(within)?;
-        let name = arrays.at(ZONES, "name").text(given.name).map_err(within)?.unwrap_or("");
-        let refuse = |what: &str| Failure::argument(ZONES, format!("{of_zone}: {what}"));
+    fn read(at: At<'h>, given: &SignoriniContactZone) -> Outcome<Self> {
+        let contact = at.field("contact").handle(given.contact)?;
+        let name = at.field("name").text(given.name)?.unwrap_or("");
         if !contact.zones.names.is_empty() {
-            return Err(refuse("its pairs are joined already: give those of each zone"));
+            return at.refuse_part("its pairs are joined already: give those of each zone");
         }
         // The numbers of a law stand in the structure too.
-        let at = ["law", "friction"].map(|name| arrays.at(ZONES, name));
-        let friction = law::read((at[0], given.law), (at[1], given.friction), 1)
-            .map_err(|failure| failure.explained(&of_zone))?;
+        let laws = ["law", "friction"].map(|name| at.named(name));
+        let friction = law::read((laws[0], given.law), (laws[1], given.friction), 1)
+            .map_err(|failure| failure.explained(&at.to_string()))?;
         if Law::of_number(friction.law().number()).is_none() {
-            return Err(refuse("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone"));
+            return at.refuse_part("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone");
         }
-        friction.check(contact.found.dim).map_err(|error| refuse(error.message().marked()))?;
+        friction.check(contact.found.dim).or_else(|error| at.refuse_error(&error))?;
         let mut numbers = [friction.law().number(), 0.0, 0.0, 0.0];
         numbers[1..].iter_mut().zip(friction.values()).for_each(|(own, given)| *own = *given);
-        Ok(Zone { name, contact, friction: numbers })
-    }
-
-    fn part(&self) -> ContactZone<'_> {
-        let slave = SignoriniFaces::view(&self.contact.slave_faces);
-        ContactZone { name: self.name, contact: &self.contact.found, slave }
+        let slave = SignoriniFaces::view(&contact.slave_faces);
+        let part = ContactZone { name, contact: &contact.found, slave };
+        Ok(Zone { part, contact, friction: numbers })
     }
 }
 
 /// What the joined pairs hold of their zones.
 fn joined_zones(zones: &[Zone<'_>]) -> JoinedZones {
-    let summary = summary_of_zones(zones.iter().map(|zone| (zone.name, &zone.contact.found)));
+    let summary = summary_of_zones(zones.iter().map(|zone| (zone.part.name, &zone.contact.found)));
     let mut joined = JoinedZones { summary, starts: vec![0], ..JoinedZones::default() };
     for zone in zones {
         let pairs = zone.contact.arrays.count;
-        joined.names.push(zone.name.to_owned());
+        joined.names.push(zone.part.name.to_owned());
         joined.starts.push(joined.starts[joined.starts.len() - 1] + pairs as i64);
         joined.friction.extend(std::iter::repeat_n(zone.friction, pairs).flatten());
     }

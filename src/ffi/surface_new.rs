@@ -291,11 +291,6 @@ impl SignoriniSurfacePairs {
         }
     }
 
-    /// 0 or 1: from where the host counts.
-    pub(super) fn base(&self) -> i64 {
-        self.numbering.base
-    }
-
     /// Degrees of freedom of all nodes of the host, `dim` for each.
     pub(super) fn dofs(&self) -> Vec<usize> {
         let dofs = self.numbering.dofs();

@@ -186,17 +186,12 @@ impl SignoriniSurfaceSettings {
     }
 
     /// The true shape of a side.
-    fn shape(
-        &self,
-        at: At<'_>,
-        dim: usize,
-        pointer: *const SignoriniObstacle,
-    ) -> Outcome<TrueShape> {
-        if pointer.is_null() {
+    fn shape(&self, at: At<'_>, dim: usize, given: *const SignoriniObstacle) -> Outcome<TrueShape> {
+        if given.is_null() {
             let fitted = self.fitted != 0;
             return Ok(if fitted { TrueShape::Fitted } else { TrueShape::Facets });
         }
-        Ok(TrueShape::Exact(at.whole(pointer)?.shape(at, dim)?))
+        Ok(TrueShape::Exact(at.whole(given)?.shape(at, dim)?))
     }
 
     /// The planes of symmetry.

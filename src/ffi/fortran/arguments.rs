@@ -1,16 +1,15 @@
 //! Scalars and arrays by reference in both widths, settings of three scalars, states, and texts.
 
-use std::fmt::Display;
-use std::ops::RangeInclusive;
+use std::ops::{Deref, RangeInclusive};
 
 use libc::c_char;
 
 use super::super::args::{Arrays, Output};
 use super::super::guard::{self, Failure, Outcome};
 use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
+use super::super::place::Place;
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use super::super::structures::Structure;
-use crate::error::entry;
 use crate::problem::checked_dim;
 use crate::settings::check_tolerance;
 
@@ -103,27 +102,24 @@ pub(super) unsafe fn fill(text: *mut c_char, length: i64, sentence: &str) {
 /// An argument by reference, with its position and its name.
 #[derive(Clone, Copy)]
 pub(super) struct Argument<P> {
-    pub(super) place: P,
-    pub(super) position: i32,
-    name: &'static str,
+    pub(super) pointer: P,
+    place: Place,
 }
 
 impl<P> Argument<P> {
     /// # Safety
-    /// `place` comes from the caller of an entry: NULL, or as many values as include/signorini.inc demands, of which
+    /// `pointer` comes from the caller of an entry: NULL, or as many values as include/signorini.inc demands, of which
     /// the first may be unaligned, as for [`write`].
-    pub(super) unsafe fn of(place: P, position: i32, name: &'static str) -> Self {
-        Argument { place, position, name }
+    pub(super) unsafe fn of(pointer: P, position: i32, name: &'static str) -> Self {
+        Argument { pointer, place: Place::of(position, name) }
     }
+}
 
-    /// Refuses the argument: its name, and what is wrong.
-    pub(super) fn refuse<T>(self, wrong: impl Display) -> Outcome<T> {
-        Err(Failure::argument(self.position, format!("{} {wrong}", self.name)))
-    }
+impl<P> Deref for Argument<P> {
+    type Target = Place;
 
-    /// Refuses an entry of the array.
-    pub(super) fn refuse_entry<T>(self, i: i64, wrong: impl Display) -> Outcome<T> {
-        Err(Failure::argument(self.position, format!("{} {wrong}", entry(self.name, [i]))))
+    fn deref(&self) -> &Place {
+        &self.place
     }
 }
 
@@ -132,23 +128,23 @@ impl<T> Argument<*mut T> {
     pub(super) fn output(self, length: usize) -> Outcome<Output<T>> {
         // SAFETY: the contract of `of`.
         let arrays = unsafe { Arrays::of_call() };
-        arrays.at(self.position, self.name).output(self.place, length)
+        arrays.at(self.position, self.name).output(self.pointer, length)
     }
 
     /// The argument, to be read.
     pub(super) fn constant(self) -> Argument<*const T> {
-        Argument { place: self.place.cast_const(), position: self.position, name: self.name }
+        Argument { pointer: self.pointer.cast_const(), place: self.place }
     }
 }
 
 impl<T: Copy> Argument<*const T> {
     /// The value of a scalar.
     pub(super) fn read(self) -> Outcome<T> {
-        if self.place.is_null() {
+        if self.pointer.is_null() {
             return self.refuse("is NULL");
         }
         // SAFETY: not NULL, and a value by the contract of `of`.
-        Ok(unsafe { self.place.read_unaligned() })
+        Ok(unsafe { self.pointer.read_unaligned() })
     }
 }
 
@@ -196,7 +192,7 @@ impl<I: Integer> Argument<*const I> {
     pub(super) fn entries<T>(self, length: i64, take: impl FnOnce(&[I]) -> T) -> Outcome<T> {
         // SAFETY: the contract of `of`.
         let arrays = unsafe { Arrays::of_call() };
-        arrays.at(self.position, self.name).required(self.place, length as usize).map(take)
+        arrays.at(self.position, self.name).required(self.pointer, length as usize).map(take)
     }
 
     /// A copy of an integer array in the width of the functions of C.
@@ -209,18 +205,6 @@ impl<I: Integer> Argument<*const I> {
         let dim = self.choice()?;
         checked_dim(dim).or_else(|_| self.refuse(format!("is {dim}, it must be 2 or 3")))?;
         Ok(dim)
-    }
-
-    /// LDK, the leading dimension of a matrix of all components of pairs.
-    pub(super) fn leading(self, (dim, pairs): (i32, i64)) -> Outcome<i64> {
-        let leading = self.count()?;
-        let n = i64::from(dim) * pairs;
-        if leading < n.max(1) {
-            return self.refuse(format!(
-                "is {leading}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
-            ));
-        }
-        Ok(leading)
     }
 
     /// LAW.

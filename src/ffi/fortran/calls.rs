@@ -50,15 +50,20 @@ entry! {
         ITER: *mut I,
     ) {
         let (dim, pairs) = (NDIM.dimension()?, NPAIR.count()?);
-        let ldk = LDK.leading((dim, pairs))?;
+        let (ldk, n) = (LDK.count()?, i64::from(dim) * pairs);
+        if ldk < n.max(1) {
+            return LDK.refuse(format!(
+                "is {ldk}, it must be at least NDIM * NPAIR, which is {n}; NPAIR counts pairs"
+            ));
+        }
         let law = LAW.law()?;
         let settings = settings(METHOD, TOL, MAXIT)?;
         let mut report = SignoriniReport::default_one();
         let status = signorini_solve(
-            dim, pairs, K.place, ldk, F.place, GAP.place, law, FRIC.place, SLIP0.place,
-            &raw const settings, D.place, R.place, STATE.place.cast(), &raw mut report, null(),
+            dim, pairs, K.pointer, ldk, F.pointer, GAP.pointer, law, FRIC.pointer, SLIP0.pointer,
+            &raw const settings, D.pointer, R.pointer, STATE.pointer.cast(), &raw mut report, null(),
         );
-        tell(status, (STATE.place, pairs), (ETA.place, ITER.place), &report)
+        tell(status, (STATE.pointer, pairs), (ETA.pointer, ITER.pointer), &report)
     }
 }
 
@@ -73,10 +78,10 @@ entry! {
         let mut report = SignoriniReport::default_one();
         let (cover, y) = (null(), null_mut());
         let status = signorini_lcp_solve(
-            n, M.place, ldm, Q.place, cover, &raw const settings, W.place, Z.place, y,
+            n, M.pointer, ldm, Q.pointer, cover, &raw const settings, W.pointer, Z.pointer, y,
             &raw mut report,
         );
-        tell(status, (null_mut(), 0), (ETA.place, ITER.place), &report)
+        tell(status, (null_mut(), 0), (ETA.pointer, ITER.pointer), &report)
     }
 }
 
@@ -92,10 +97,10 @@ entry! {
     ) {
         create(HANDLE, |model| {
             let matrix = Matrix { N, NNZ, COLPTR, ROWIND, VALUES, TRI, NFIX, FIXED };
-            let nodes = Nodes { SLAVE, NMAST, MSTART, MASTER, WEIGHT };
-            let pairs = (NDIM.dimension()?, NPAIR.count()?);
-            let with_pairs = |pairs| matrix.with(pairs, model);
-            nodes.with_pairs(pairs, NORMAL.place, (NTAN, TANGNT.place), with_pairs)
+            let pairs = Pairs {
+                NDIM, NPAIR, SLAVE, NMAST, MSTART, MASTER, WEIGHT, NORMAL, NTAN, TANGNT,
+            };
+            pairs.with(|pairs| matrix.with(pairs, model))
         })
     }
 }
@@ -114,12 +119,12 @@ entry! {
         let settings = settings(METHOD, TOL, MAXIT)?;
         let mut report = SignoriniReport::default_one();
         let status = signorini_model_solve(
-            Arc::as_ptr(&model), 1, F.place, PRESC.place, GAP.place, law, FRIC.place, SLIP0.place,
-            &raw const settings, D.place, R.place, STATE.place.cast(), null_mut(),
+            Arc::as_ptr(&model), 1, F.pointer, PRESC.pointer, GAP.pointer, law, FRIC.pointer, SLIP0.pointer,
+            &raw const settings, D.pointer, R.pointer, STATE.pointer.cast(), null_mut(),
             &raw mut report, null(),
         );
         let pairs = model.model.pairs() as i64;
-        tell(status, (STATE.place, pairs), (ETA.place, ITER.place), &report)
+        tell(status, (STATE.pointer, pairs), (ETA.pointer, ITER.pointer), &report)
     }
 }
 
@@ -129,7 +134,7 @@ entry! {
     (HANDLE: *const i64, F: *const f64, PRESC: *const f64, D: *const f64, U: *mut f64) {
         let model = find::<SignoriniModel>(HANDLE)?;
         let model = Arc::as_ptr(&model);
-        Ok(signorini_model_recover(model, 1, F.place, PRESC.place, D.place, U.place))
+        Ok(signorini_model_recover(model, 1, F.pointer, PRESC.pointer, D.pointer, U.pointer))
     }
 }
 
@@ -199,9 +204,9 @@ impl<I: Integer> Matrix<I> {
             triangle,
             size,
             nnz,
-            col_start: self.COLPTR.place.cast(),
-            row: self.ROWIND.place.cast(),
-            values: self.VALUES.place,
+            col_start: self.COLPTR.pointer.cast(),
+            row: self.ROWIND.pointer.cast(),
+            values: self.VALUES.pointer,
             ..SignoriniSparse::zeros()
         })
     }
@@ -226,24 +231,24 @@ impl<I: Integer> Matrix<I> {
 /// `SLAVE(1,1)` of pairs that are general rows.
 const GENERAL_ROWS: i64 = -1;
 
-/// The arguments from SLAVE, the eleventh, to WEIGHT.
-struct Nodes<I> {
+/// The arguments from NDIM to TANGNT.
+struct Pairs<I> {
+    NDIM: Integers<I>,
+    NPAIR: Integers<I>,
     SLAVE: Integers<I>,
     NMAST: Integers<I>,
     MSTART: Integers<I>,
     MASTER: Integers<I>,
     WEIGHT: Argument<*const f64>,
+    NORMAL: Argument<*const f64>,
+    NTAN: Integers<I>,
+    TANGNT: Argument<*const f64>,
 }
 
-impl<I: Integer> Nodes<I> {
-    /// Hands pairs of these nodes to `work` in the form of C.
-    fn with_pairs<T>(
-        &self,
-        (dim, pairs): (i32, i64),
-        normals: *const f64,
-        (ntan, tangents): (Integers<I>, *const f64),
-        work: impl FnOnce(*const SignoriniPairs) -> Outcome<T>,
-    ) -> Outcome<T> {
+impl<I: Integer> Pairs<I> {
+    /// Hands the pairs to `work` in the form of C.
+    fn with<T>(&self, work: impl FnOnce(*const SignoriniPairs) -> Outcome<T>) -> Outcome<T> {
+        let (dim, pairs) = (self.NDIM.dimension()?, self.NPAIR.count()?);
         let first = self.SLAVE.numbers(pairs.min(1))?;
         let is_general = first == [GENERAL_ROWS];
         let slaves = if is_general { 0 } else { pairs * i64::from(dim) };
@@ -256,18 +261,18 @@ impl<I: Integer> Nodes<I> {
         }
         let begins = self.begins(pairs, masters)?;
         let nodes = self.MASTER.numbers(masters * i64::from(dim))?;
-        let given = ntan.count()?;
+        let given = self.NTAN.count()?;
         if given != 0 && given != pairs {
-            return ntan.refuse(format!("is {given}, it must be 0 or NPAIR ({pairs})"));
+            return self.NTAN.refuse(format!("is {given}, it must be 0 or NPAIR ({pairs})"));
         }
         let mut view = SignoriniPairs {
             dim,
             count: pairs,
-            normals,
-            tangents: if given == 0 { null() } else { tangents },
+            normals: self.NORMAL.pointer,
+            tangents: if given == 0 { null() } else { self.TANGNT.pointer },
             ..SignoriniPairs::zeros()
         };
-        let rows = (begins.as_ptr(), nodes.as_ptr(), self.WEIGHT.place);
+        let rows = (begins.as_ptr(), nodes.as_ptr(), self.WEIGHT.pointer);
         if is_general {
             (view.row_start, view.row_nodes, view.row_weights) = rows;
         } else {

@@ -58,11 +58,11 @@ pub(super) unsafe fn create<T: Kind>(
     handle: Argument<*mut i64>,
     make: impl FnOnce(*mut *mut T) -> Outcome<i32>,
 ) -> Outcome<i32> {
-    if handle.place.is_null() {
+    if handle.pointer.is_null() {
         return handle.refuse("is NULL");
     }
     // SAFETY: a place of the caller.
-    unsafe { write(handle.place, 0) };
+    unsafe { write(handle.pointer, 0) };
     let mut boxed = std::ptr::null_mut();
     let status = make(&raw mut boxed)?;
     if status == 0 {
@@ -74,17 +74,14 @@ pub(super) unsafe fn create<T: Kind>(
             *last
         });
         // SAFETY: as above.
-        unsafe { write(handle.place, number) };
+        unsafe { write(handle.pointer, number) };
     }
     Ok(status)
 }
 
 /// The object of a handle, which lives on during the call even if another thread releases it.
 pub(super) fn find<T: Kind>(handle: Argument<*const i64>) -> Outcome<Arc<T>> {
-    object(handle, handle.read()?)
-}
-
-fn object<T: Kind>(handle: Argument<*const i64>, number: i64) -> Outcome<Arc<T>> {
+    let number = handle.read()?;
     let found = with_living(|_, objects| objects.get(&number).cloned());
     let of_this_kind = found.and_then(|found| found.downcast().ok());
     of_this_kind.map_or_else(|| unknown::<T, _>(handle, number), Ok)
@@ -95,12 +92,16 @@ pub(super) fn free<T: Kind>(handle: Argument<*mut i64>) -> Outcome<i32> {
     let given = handle.constant();
     let number = given.read()?;
     if number != 0 {
-        object::<T>(given, number)?;
-        let released = with_living(|_, objects| objects.remove(&number));
-        drop(released.map_or_else(|| unknown::<T, _>(given, number), Ok)?);
+        let released = with_living(|_, objects| {
+            let is_known = objects.get(&number).is_some_and(|object| (**object).is::<T>());
+            if is_known { objects.remove(&number) } else { None }
+        });
+        if released.is_none() {
+            return unknown::<T, _>(given, number);
+        }
     }
     // SAFETY: a place of the caller.
-    unsafe { write(handle.place, 0) };
+    unsafe { write(handle.pointer, 0) };
     Ok(0)
 }
 

@@ -44,9 +44,9 @@ entry! {
             let (slave, master) = (&raw const slave, &raw const master);
             let settings = &raw const settings;
             let status =
-                signorini_surface_pair(dim, nodes, X.place, slave, master, settings, contact);
+                signorini_surface_pair(dim, nodes, X.pointer, slave, master, settings, contact);
             if status == 0 {
-                write(NPAIR.place, I::nearest((**contact).rows.count));
+                write(NPAIR.pointer, I::nearest((**contact).rows.count));
             }
             Ok(status)
         })
@@ -131,14 +131,14 @@ entry! {
     ) {
         let contact = find::<SignoriniSurfacePairs>(HSURF)?;
         let fields = SignoriniContactFields {
-            pressure: PRESS.place,
-            traction: TRACT.place,
-            clearance: CLEAR.place,
-            slip: SLIP.place,
+            pressure: PRESS.pointer,
+            traction: TRACT.pointer,
+            clearance: CLEAR.pointer,
+            slip: SLIP.pointer,
             ..SignoriniContactFields::zeros()
         };
         Ok(signorini_surface_fields(
-            Arc::as_ptr(&contact), GAP.place, SLIP0.place, D.place, R.place, null(),
+            Arc::as_ptr(&contact), GAP.pointer, SLIP0.pointer, D.pointer, R.pointer, null(),
             &raw const fields,
         ))
     }
@@ -148,7 +148,7 @@ entry! {
     sgsumm_ sgsumm_64_ calls [],
     (HSURF: *const i64, TEXT: *mut c_char, LTEXT: *const I) {
         let contact = find::<SignoriniSurfacePairs>(HSURF)?;
-        fill(TEXT.place, LTEXT.count()?, &contact.summary.to_string_lossy());
+        fill(TEXT.pointer, LTEXT.count()?, &contact.summary.to_string_lossy());
         Ok(0)
     }
 }

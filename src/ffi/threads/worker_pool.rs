@@ -6,12 +6,12 @@ use std::hint::spin_loop;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::system_thread::{Job, Thread, processors};
 use crate::shortage::{self, Shortage};
-use crate::workers::{Workers, with_workers};
+use crate::workers::{Workers, locked, with_workers};
 
 /// Most threads: each has working memory, and of more than these none has enough to do.
 const MOST: usize = 64;
@@ -93,29 +93,16 @@ struct Notes {
 }
 
 impl Board {
-    fn notes(&self) -> MutexGuard<'_, Notes> {
-        self.notes.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Waits while `condition` holds.
-    fn wait<'n>(
-        &self,
-        signal: &Condvar,
-        notes: MutexGuard<'n, Notes>,
-        condition: impl Fn(&Notes) -> bool,
-    ) -> MutexGuard<'n, Notes> {
-        let condition = |notes: &mut Notes| condition(notes);
-        signal.wait_while(notes, condition).unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Does parts of each work that is posted, until there is none any more.
     fn serve(&self, thread: usize) {
         let mut seen = 0;
         loop {
             look_for(|| self.count.load(Ordering::Relaxed) != seen);
-            let mut notes = self.notes();
+            let mut notes = locked(&self.notes);
             notes.asleep += 1;
-            let mut notes = self.wait(&self.posted, notes, |now| now.count == seen && !now.is_over);
+            let waits = |now: &mut Notes| now.count == seen && !now.is_over;
+            let mut notes =
+                self.posted.wait_while(notes, waits).unwrap_or_else(PoisonError::into_inner);
             notes.asleep -= 1;
             let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
                 return;
@@ -128,7 +115,7 @@ impl Board {
                 self.share(parts, &|part| work(thread, part), &mut || true);
                 shortage::check();
             }));
-            let mut notes = self.notes();
+            let mut notes = locked(&self.notes);
             if let Err(reason) = result {
                 self.next.store(parts, Ordering::Relaxed);
                 notes.failure = Some(reason);
@@ -173,7 +160,7 @@ impl WorkerPool {
             // SAFETY: the pool owns the job, and joins the thread when it is dropped.
             let Some(thread) = (unsafe { Thread::start(job) }) else { return };
             started.push(thread);
-            self.board.notes().present += usize::from(job.is_prepared());
+            locked(&self.board.notes).present += usize::from(job.is_prepared());
         }
     }
 }
@@ -195,7 +182,7 @@ impl Workers for WorkerPool {
         let lasting = unsafe {
             std::mem::transmute::<*const (dyn Fn(usize, usize) + Sync + '_), *const Work>(work)
         };
-        let mut notes = board.notes();
+        let mut notes = locked(&board.notes);
         board.next.store(0, Ordering::Relaxed);
         notes.work = Some(Posted { work: lasting, parts });
         notes.count += 1;
@@ -211,9 +198,11 @@ impl Workers for WorkerPool {
             catch_unwind(AssertUnwindSafe(|| board.share(parts, &|part| work(0, part), go_on)));
         board.next.store(parts, Ordering::Relaxed);
         look_for(|| board.busy.load(Ordering::Relaxed) == 0);
-        let mut notes = board.notes();
+        let mut notes = locked(&board.notes);
         notes.is_awaited = true;
-        let mut notes = board.wait(&board.ended, notes, |now| now.busy > 0);
+        let waits = |now: &mut Notes| now.busy > 0;
+        let mut notes =
+            board.ended.wait_while(notes, waits).unwrap_or_else(PoisonError::into_inner);
         notes.is_awaited = false;
         notes.work = None;
         let failure = notes.failure.take();
@@ -231,7 +220,7 @@ impl Workers for WorkerPool {
 
 impl Drop for WorkerPool {
     fn drop(&mut self) {
-        self.board.notes().is_over = true;
+        locked(&self.board.notes).is_over = true;
         // No work has this number: who looks for the next one looks no further.
         self.board.count.store(u64::MAX, Ordering::Relaxed);
         self.board.posted.notify_all();

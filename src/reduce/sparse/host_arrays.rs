@@ -30,7 +30,7 @@ impl Indices<'_> {
     }
 
     /// Entry `i` as the host has it.
-    pub(super) fn get(&self, i: usize) -> i64 {
+    pub(crate) fn get(&self, i: usize) -> i64 {
         match self {
             Indices::Narrow(values) => i64::from(values[i]),
             Indices::Wide(values) => values[i],
