@@ -2,7 +2,7 @@
 
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::numeric::{Numeric, factorised};
-use super::plan::Plan;
+use super::schedule::Schedule;
 use super::solve;
 use super::structure::Structure;
 use crate::linalg::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
@@ -15,13 +15,11 @@ use crate::linalg::watched::GoesOn;
 /// Factorises `matrix`, which stays as it is, to the values of the panels and the rest; or says what motion of the eliminated rows nothing resists, and
 /// leaves it with a larger diagonal.
 pub fn diagnosed(
-    plan: &Plan,
+    parts: (&Structure, &Schedule),
     matrix: &mut Csc,
     progress: &mut FactorProgress<'_>,
 ) -> Result<(Vec<f64>, Numeric), Failure> {
-    let (structure, mut values) = (&plan.structure, Vec::new());
-    let parts = (structure, &plan.schedule);
-    let mut singular = false;
+    let (structure, mut values, mut singular) = (parts.0, Vec::new(), false);
     let numeric = loop {
         match factorised(parts, matrix, &mut values, progress) {
             Ok(numeric) => break numeric,

@@ -2,8 +2,10 @@
 //! of one node of a mesh are one vertex, so that orderings and symbolic factorisations have a quarter or a
 //! ninth of the entries.
 
+use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
-use crate::linalg::sparse_matrix::{Csc, OutOfMemory, column};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 use crate::shortage;
 
 /// Vertices with their unknowns and neighbours. First stand the vertices that are eliminated.
@@ -30,7 +32,7 @@ impl Graph {
         eliminated: usize,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let unknowns = Adjacency::of_unknowns(lower, progress)?;
+        let unknowns = Adjacency::of_unknowns(lower)?;
         progress(FactorStep::HasDone(0.0))?;
         let (vertex, member_start, member) = together(&unknowns, eliminated)?;
         progress(FactorStep::HasDone(0.0))?;
@@ -44,7 +46,7 @@ impl Graph {
         for v in 0..count {
             let begin = neighbour.len();
             seen[v] = v;
-            for &i in unknowns.of(member[member_start[v]]) {
+            for i in unknowns.of(member[member_start[v]]) {
                 let other = vertex[i];
                 if seen[other] != v {
                     seen[other] = v;
@@ -78,49 +80,32 @@ impl Graph {
     }
 }
 
-/// Neighbours of each unknown, ascending, without itself.
-struct Adjacency {
-    start: Vec<usize>,
-    neighbour: Vec<usize>,
+/// The neighbours of each unknown: the larger ones in a column of the lower triangle, the smaller ones in one of the upper.
+struct Adjacency<'l> {
+    lower: SymbolicSparseColMatRef<'l, usize>,
+    upper: SymbolicSparseColMat<usize>,
 }
 
-impl Adjacency {
-    fn of_unknowns(lower: &Csc, progress: &mut FactorProgress<'_>) -> Result<Self, Failure> {
-        let size = lower.ncols();
-        let below = |j: usize| column(lower, j).0.iter().copied().filter(move |&i| i != j);
-        let mut start = filled(size + 1, 0)?;
-        for j in 0..size {
-            for i in below(j) {
-                start[i + 1] += 1;
-                start[j + 1] += 1;
-            }
-        }
-        (0..size).for_each(|i| start[i + 1] += start[i]);
-        progress(FactorStep::HasDone(0.0))?;
-        let mut neighbour = filled(start[size], 0)?;
-        let mut next = start.clone();
-        let mut put = |of: usize, i: usize| {
-            neighbour[next[of]] = i;
-            next[of] += 1;
-        };
-        // First the smaller neighbours of each unknown, then the larger ones, both ascending.
-        for j in 0..size {
-            below(j).for_each(|i| put(i, j));
-        }
-        progress(FactorStep::HasDone(0.0))?;
-        for j in 0..size {
-            below(j).for_each(|i| put(j, i));
-        }
-        Ok(Adjacency { start, neighbour })
+impl<'l> Adjacency<'l> {
+    fn of_unknowns(lower: &'l Csc) -> Result<Self, OutOfMemory> {
+        let lower = lower.symbolic();
+        let upper = lower.transpose().to_col_major().map_err(|_| OutOfMemory)?;
+        Ok(Adjacency { lower, upper })
     }
 
-    fn of(&self, i: usize) -> &[usize] {
-        &self.neighbour[self.start[i]..self.start[i + 1]]
+    fn unknowns(&self) -> usize {
+        self.lower.ncols()
+    }
+
+    /// Neighbours, ascending, without the unknown itself.
+    fn of(&self, i: usize) -> impl Iterator<Item = usize> {
+        let both = self.upper.as_ref().row_idx_of_col(i).chain(self.lower.row_idx_of_col(i));
+        both.filter(move |&k| k != i)
     }
 
     /// `true` if two neighbours have the same other neighbours.
     fn alike(&self, i: usize, j: usize) -> bool {
-        let others = |of: usize, but: usize| self.of(of).iter().filter(move |&&k| k != but);
+        let others = |of: usize, but: usize| self.of(of).filter(move |&k| k != but);
         others(i, j).eq(others(j, i))
     }
 
@@ -131,15 +116,15 @@ impl Adjacency {
             let product = (k as u64 + 1).wrapping_mul(MIX);
             (product ^ (product >> 32)).wrapping_mul(MIX)
         };
-        self.of(i).iter().fold(term(i), |sum, &k| sum.wrapping_add(term(k)))
+        self.of(i).fold(term(i), |sum, k| sum.wrapping_add(term(k)))
     }
 }
 
 /// The vertex of each unknown, and the unknowns of each vertex: its begins, and the unknowns.
 type Together = (Vec<usize>, Vec<usize>, Vec<usize>);
 
-fn together(unknowns: &Adjacency, eliminated: usize) -> Result<Together, OutOfMemory> {
-    let size = unknowns.start.len() - 1;
+fn together(unknowns: &Adjacency<'_>, eliminated: usize) -> Result<Together, OutOfMemory> {
+    let size = unknowns.unknowns();
     let mut signature = reserved(size)?;
     signature.extend((0..size).map(|i| unknowns.signature(i)));
     let mut vertex = filled(size, usize::MAX)?;
@@ -152,7 +137,7 @@ fn together(unknowns: &Adjacency, eliminated: usize) -> Result<Together, OutOfMe
         let new = member_start.len() - 1;
         vertex[i] = new;
         member.push(i);
-        for &j in unknowns.of(i).iter().filter(|&&j| j > i) {
+        for j in unknowns.of(i).filter(|&j| j > i) {
             let same_side = (i < eliminated) == (j < eliminated);
             let free = vertex[j] == usize::MAX && signature[i] == signature[j];
             if same_side && free && unknowns.alike(i, j) {

@@ -5,7 +5,6 @@
 //! factorised, so that it may be singular. Loads `(a, c)` become `c - B' y` with `L y = a`; and `Lᵀ x = y - B'ᵀ d` gives
 //! the eliminated unknowns.
 
-mod cholesky;
 mod diagnosis;
 mod dissection;
 mod entries;
@@ -24,7 +23,6 @@ mod separator;
 mod solve;
 mod structure;
 
-pub use cholesky::Values;
 pub use factor_progress::{FactorProgress, FactorStep, Failure, Stopped};
-pub use plan::Plan;
+pub use plan::{Plan, Values};
 pub use schur::SparseSchur;

@@ -57,7 +57,7 @@ pub fn fill(source: Source<'_>, number: usize, place: &mut [usize], values: &mut
     let stride = columns.len() + rows.len();
     columns.clone().chain(rows.iter().copied()).enumerate().for_each(|(k, row)| place[row] = k);
     for (k, j) in columns.enumerate() {
-        for &(row, value) in source.entries.of(j) {
+        for (row, value) in source.entries.of(j) {
             values[place[row] + stride * k] += value;
         }
     }

@@ -50,7 +50,8 @@ impl SparseSchur {
         always: bool,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let (values, Numeric { schur, .. }) = diagnosed(&plan, &mut lower, progress)?;
+        let (values, Numeric { schur, .. }) =
+            diagnosed((&plan.structure, &plan.schedule), &mut lower, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
