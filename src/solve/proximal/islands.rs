@@ -3,7 +3,7 @@
 //!
 //! The squares of the residuals add up, and so do those of loads and forces, the larger of which is the scale of an
 //! island. So islands with `eta <= t` make a whole with `eta <= t √2`. Islands that Newton's method has solved have no
-//! certificate of their own: that of the whole is enough, and where it does not hold they are solved again with one.
+//! certificate of their own: that of the whole is enough.
 
 use std::ops::Range;
 
@@ -32,21 +32,15 @@ pub fn solve(
         return flexibility::solve(problem, (settings, solve), start, &|pair| pair, monitor);
     };
     let contact = &Contact::new(problem);
-    let whole = (contact, matrix.as_ref());
-    let found = in_turn(whole, (settings, solve), (start, false), monitor)?;
-    let (is_certified, all) = (found.quick == 0, found.worst.is_none());
-    let solution = found.solution(contact, settings);
-    if is_certified || !all || solution.status != Status::Stalled {
-        return Ok(solution);
-    }
-    Ok(in_turn(whole, (settings, solve), (start, true), monitor)?.solution(contact, settings))
+    let found = in_turn((contact, matrix), (settings, solve), start, monitor)?;
+    Ok(found.solution(contact, settings))
 }
 
-/// Solves island by island, each with a certificate of its own if they are to be `certified`.
+/// Solves island by island.
 fn in_turn(
     (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
     (settings, solve): (&Settings, Solve),
-    (start, certified): (Option<&[f64]>, bool),
+    start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
     let problem = contact.problem();
@@ -59,7 +53,7 @@ fn in_turn(
     }
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     let mut found = Found { force, islands: islands.len(), ..Found::default() };
-    let with_newton = !certified && takes_newton(settings);
+    let with_newton = takes_newton(settings);
     let mut is_left = |pairs: &&[usize]| match pairs {
         [pair] if with_newton => !found.add_alone((contact, matrix), *pair, own.tolerance, monitor),
         _ => true,
@@ -79,8 +73,7 @@ fn in_turn(
         first = part.end;
         let island = island((problem, &ordered), (&data, part), &entries)?;
         let begin = gathered(&found.force, pairs, dim);
-        if !certified
-            && let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
+        if let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
             && newton.ending == Ending::Done
             && newton.point.eta <= own.tolerance
         {
