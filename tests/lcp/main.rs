@@ -8,5 +8,4 @@ mod copositive;
 mod enumeration;
 mod extremes;
 mod games;
-mod trail;
 mod worst_cases;

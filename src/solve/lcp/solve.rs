@@ -121,7 +121,8 @@ fn by_lemke(
     let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix;
-    let scaled = Scaled::new(&matrix, lcp.q(), &covering, scale);
+    let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(matrix.column(j));
+    let scaled = Scaled::new(fill, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
     let mut run = lemke::follow(&scaled, rules(false), monitor)?;

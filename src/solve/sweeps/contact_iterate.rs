@@ -39,8 +39,7 @@ fn sweep(
 ) -> f64 {
     match matrix.size() / laws.len().max(1) {
         3 => sweep_in::<3>(laws, matrix, iterate, omega),
-        2 => sweep_in::<2>(laws, matrix, iterate, omega),
-        _ => sweep_in::<1>(laws, matrix, iterate, omega),
+        _ => sweep_in::<2>(laws, matrix, iterate, omega),
     }
 }
 

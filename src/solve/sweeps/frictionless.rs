@@ -1,10 +1,12 @@
-//! Frictionless contact by sweeps on the normal displacements.
+//! Frictionless contact by sweeps on the clearances.
 
 use super::Iterate;
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::lcp_iterate::LcpIterate;
+use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
-use crate::solve::part::NormalProblem;
+use crate::problem::BoundedLcp;
+use crate::solve::part::ContactLcp;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
@@ -14,21 +16,30 @@ const TIGHTENING: f64 = 0.1;
 /// Solves a problem.
 pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let normal = match NormalProblem::new(contact, monitor) {
-        Ok(normal) => normal,
+    let condensed = match ContactLcp::new(contact, monitor) {
+        Ok(condensed) => condensed,
         Err(why) => return Candidate::without_displacements(contact, why),
     };
-    let start = normal.restrict(&call.start_or_zero()).iter().map(|d| -d).collect();
-    let iterate = LcpIterate::new(normal.lcp(), start);
+    let [q, ..] = condensed.vectors([0.0; 2]);
+    let size = q.len();
+    let mut entries = vec![0.0; size * size];
+    let columns = entries.chunks_exact_mut(size.max(1)).enumerate();
+    columns.for_each(|(j, column)| condensed.write_column(j, column));
+    if let Some(motion) = condensed.stiffen_unresisted(&mut entries, &q) {
+        return Candidate::without_displacements(contact, Ending::Recession(motion));
+    }
+    let (matrix, lower) = (Matrix::new(size, &entries, size.max(1)), vec![0.0; size]);
+    let lcp = BoundedLcp { matrix, q: &q, lower: &lower, symmetric: true, remembered: None };
+    let iterate = LcpIterate::new(lcp, condensed.clearances(&call.start_or_zero()));
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut target = settings.tolerance;
     loop {
         let ending = match driver.solve(target) {
             Ok(()) => Ending::Done,
-            Err(Ending::Recession(motion)) => Ending::Recession(normal.follow(&motion)),
+            Err(Ending::Recession(motion)) => Ending::Recession(condensed.motion(&motion)),
             Err(other) => other,
         };
-        let d = normal.expand(driver.iterate.unknowns());
+        let d = condensed.displacements(driver.iterate.unknowns());
         let mut candidate = Candidate::of_displacements(contact, d, ending);
         candidate.effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
         let done = candidate.ending != Ending::Done

@@ -49,12 +49,13 @@
 //! formulates friction as linear complementarity, without this start. With given thresholds the matrix is
 //! positive semi-definite and the standard theory applies; the same start serves.
 
-use super::contact_lcp::ContactLcp;
 use super::path::{self, LemkeRules};
+use super::scaled::Scaled;
 use crate::certificate::is_escape_of;
 use crate::error::Error;
 use crate::monitor::Monitor;
 use crate::solve::newton::from_pieces;
+use crate::solve::part::ContactLcp;
 use crate::solve::result::{Call, Candidate, Ending};
 use crate::solve::rigid;
 
@@ -74,20 +75,21 @@ const END: f64 = 1e-10;
 
 /// Solves a problem without friction, or in 2D. It needs no start.
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Error> {
-    let (contact, settings) = (call.contact, call.settings);
+    let contact = call.contact;
     let lcp = match ContactLcp::new(contact, monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
-    if !contact.is_frictionless() {
-        let rules = LemkeRules { end: END, ..LemkeRules::usual(false) };
-        return run(&lcp, call, rules, monitor);
-    }
-    let usual = run(&lcp, call, LemkeRules::usual(false), monitor)?;
-    if usual.is_settled(contact, settings.tolerance) {
-        return Ok(usual);
-    }
-    run(&lcp, call, LemkeRules::usual(true), monitor)
+    let usual = LemkeRules::usual(false);
+    let rules = if contact.is_frictionless() { usual } else { LemkeRules { end: END, ..usual } };
+    run(&lcp, call, rules, monitor)
+}
+
+/// The LCP with the cohesion of the covering vector against slip to either side.
+fn scaled<'l>(lcp: &'l ContactLcp<'_>, cohesion: [f64; 2]) -> Scaled<'l> {
+    let [q, covering, root] = lcp.vectors(cohesion);
+    let scale = root.iter().map(|root| root.recip()).collect();
+    Scaled::new(|j, column| lcp.write_column(j, column), &q, &covering, scale)
 }
 
 /// Follows a path to its end, and polishes the solution there.
@@ -98,7 +100,7 @@ fn run(
     monitor: &mut Monitor<'_>,
 ) -> Result<Candidate, Error> {
     let (contact, settings) = (call.contact, call.settings);
-    let run = path::follow(&lcp.scaled(COHESIONS[0]), rules, monitor)?;
+    let run = path::follow(&scaled(lcp, COHESIONS[0]), rules, monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -137,7 +139,7 @@ pub fn ends(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Vec<Candidate>
         if monitor.is_late() {
             break;
         }
-        let run = path::follow(&lcp.scaled(cohesion), rules, monitor)?;
+        let run = path::follow(&scaled(&lcp, cohesion), rules, monitor)?;
         for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
             let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
             ends.push(from_pieces(&call.from(&d), &pieces, monitor));

@@ -2,13 +2,11 @@
 
 mod bimatrix;
 mod contact;
-mod contact_lcp;
 mod path;
 mod rank_one_updates;
 mod refactorisation;
 mod scaled;
 mod tableau;
-mod trail;
 
 pub use bimatrix::missing_label;
 pub use contact::{ends, solve as contact};

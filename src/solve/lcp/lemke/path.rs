@@ -12,12 +12,11 @@
 //! Rounding: every [`CHECK`] pivots the values are refined on the data; where they were found to
 //! have drifted, the tableau is refactorised. Rounding may also break a tie the wrong way, and then the path may
 //! cycle. So a path is followed thoroughly where that is cheap beside it, after as many pivots as there are equations
-//! of a small problem, and from its start where it has returned to a basis, or where the certificate of a caller finds
-//! its end inaccurate: a tableau that is refactorised after a few pivots has lost less than what ties are told by.
+//! of a small problem, and from its start where the certificate of a caller finds its end inaccurate: a tableau that is
+//! refactorised after a few pivots has lost less than what ties are told by.
 
 use super::scaled::Scaled;
 use super::tableau::Tableau;
-use super::trail::Trail;
 use crate::error::Error;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::monitor::Monitor;
@@ -39,9 +38,6 @@ pub struct LemkeRun {
 
 /// Rounding made a basis of Lemke's method singular.
 pub const BREAKDOWN: Ending = Ending::Stalled("rounding made Lemke's basis singular");
-
-/// A path that returned to a basis although it was followed thoroughly.
-const CYCLE: Ending = Ending::Stalled("rounding made Lemke's path return to a basis");
 
 /// Pivots between two checks of the values against the data: the check costs about one pivot.
 const CHECK: u64 = 32;
@@ -82,32 +78,25 @@ impl LemkeRules {
 /// Follows the path of `problem`.
 pub fn follow(
     problem: &Scaled<'_>,
-    mut rules: LemkeRules,
+    rules: LemkeRules,
     monitor: &mut Monitor<'_>,
 ) -> Result<LemkeRun, Error> {
     let n = problem.size();
-    let mut refactorisations = 0;
-    loop {
-        let nothing =
-            |ending| Ok(LemkeRun { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations });
-        let tableau = match Tableau::new(problem, monitor) {
-            Ok(tableau) => tableau,
-            Err(Ending::Failed(error)) => return Err(error),
-            Err(ending) => return nothing(ending),
-        };
-        if !tableau.is_finite() || problem.covering.contains(&0.0) {
-            return nothing(Ending::Stalled("numbers overflow or underflow in the LCP"));
-        }
-        let mut path = Path { problem, tableau, rules, turns: Vec::new(), refactorisations };
-        let ending = path.run(monitor).unwrap_or_else(|ending| ending);
-        if ending == CYCLE && !rules.thorough {
-            (rules.thorough, refactorisations) = (true, path.refactorisations);
-            continue;
-        }
-        let turns = path.turns.iter().map(|z| problem.unscaled(z.iter().copied())).collect();
-        let z = problem.unscaled((n..2 * n).map(|z| path.tableau.value(z)));
-        return Ok(LemkeRun { z, ending, turns, refactorisations: path.refactorisations });
+    let nothing =
+        |ending| Ok(LemkeRun { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
+    let tableau = match Tableau::new(problem, monitor) {
+        Ok(tableau) => tableau,
+        Err(Ending::Failed(error)) => return Err(error),
+        Err(ending) => return nothing(ending),
+    };
+    if !tableau.is_finite() || problem.covering.contains(&0.0) {
+        return nothing(Ending::Stalled("numbers overflow or underflow in the LCP"));
     }
+    let mut path = Path { problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
+    let ending = path.run(monitor).unwrap_or_else(|ending| ending);
+    let turns = path.turns.iter().map(|z| problem.unscaled(z.iter().copied())).collect();
+    let z = problem.unscaled((n..2 * n).map(|z| path.tableau.value(z)));
+    Ok(LemkeRun { z, ending, turns, refactorisations: path.refactorisations })
 }
 
 /// A path that is being followed.
@@ -127,7 +116,7 @@ impl Path<'_> {
         // The path ends when one of these leaves.
         let last = self.rules.label.map_or([z0, z0], |label| [label, n + label]);
         let Some((mut row, mut entering)) = self.first_exchange() else { return Ok(Ending::Done) };
-        let (mut start, mut pivots, mut trail) = (None, 0, Trail::new());
+        let (mut start, mut pivots) = (None, 0);
         loop {
             let work = self.tableau.pivot_work();
             monitor.step().and_then(|()| monitor.affords(work))?;
@@ -143,9 +132,6 @@ impl Path<'_> {
             }
             if ended {
                 return Ok(Ending::Done);
-            }
-            if trail.returns_by(entering, leaving) {
-                return Err(CYCLE);
             }
             if self.rules.label.is_none() {
                 start.get_or_insert(self.tableau.value(z0));
@@ -222,7 +208,8 @@ mod tests {
             }
             let ones = vec![1.0; n];
             let matrix = Matrix::new(n, &entries, n);
-            let lcp = Scaled::new(&matrix, &q, &ones, ones.clone());
+            let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(matrix.column(j));
+            let lcp = Scaled::new(fill, &q, &ones, ones.clone());
             let run = |thorough| {
                 let settings = crate::settings::Settings::default();
                 let monitor = &mut Monitor::new(&settings, None);

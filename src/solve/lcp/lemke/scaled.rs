@@ -1,27 +1,17 @@
 //! An LCP, scaled, as the tableau of Lemke's method reads it.
 
-use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{largest_exponent, times_power_of_two};
 use crate::linalg::simd;
 
-/// The entries of an LCP matrix that nobody needs to store a second time: the tableau begins as a copy
-/// of it, and reads columns again when it is refined or refactorised.
-pub trait Entries: Sync {
-    /// Writes column `j`.
-    fn write_column(&self, j: usize, column: &mut [f64]);
-}
-
-impl Entries for Matrix<'_> {
-    fn write_column(&self, j: usize, column: &mut [f64]) {
-        column.copy_from_slice(self.column(j));
-    }
-}
+/// Writes a column of a matrix.
+type Fill<'p> = dyn Fn(usize, &mut [f64]) + Sync + 'p;
 
 /// The problem that a tableau belongs to, in the variables `z_i / scale_i`, `w_i * scale_i`, so that its entries are of
 /// similar size.
 pub struct Scaled<'p> {
-    /// `M`.
-    matrix: &'p dyn Entries,
+    /// Writes a column of `M`, which nobody needs to store a second time: the tableau begins as a copy of it, and reads
+    /// columns again when it is refined or refactorised.
+    fill: Box<Fill<'p>>,
     /// Row and column scales of `M`.
     scale: Vec<f64>,
     /// `q`, scaled, of size one.
@@ -33,8 +23,13 @@ pub struct Scaled<'p> {
 }
 
 impl<'p> Scaled<'p> {
-    /// The LCP of a matrix, `q` and a positive covering vector, to be scaled.
-    pub fn new(matrix: &'p dyn Entries, q: &[f64], covering: &[f64], scale: Vec<f64>) -> Self {
+    /// The LCP of a matrix whose columns `fill(j, column)` writes, `q` and a positive covering vector, to be scaled.
+    pub fn new(
+        fill: impl Fn(usize, &mut [f64]) + Sync + 'p,
+        q: &[f64],
+        covering: &[f64],
+        scale: Vec<f64>,
+    ) -> Self {
         // Powers of two: the pivots stay the same.
         let of_size_one = |values: &[f64]| -> (Vec<f64>, i32) {
             let first = largest_exponent(values.iter().copied()).unwrap_or(0);
@@ -46,7 +41,7 @@ impl<'p> Scaled<'p> {
             (of_size_one.collect(), first + second)
         };
         let ((q, unit), (covering, _)) = (of_size_one(q), of_size_one(covering));
-        Scaled { matrix, scale, q, unit, covering }
+        Scaled { fill: Box::new(fill), scale, q, unit, covering }
     }
 
     /// Number of equations.
@@ -67,7 +62,7 @@ impl<'p> Scaled<'p> {
 
     /// Writes column `j` of `M`, scaled.
     pub fn write_column(&self, j: usize, column: &mut [f64]) {
-        self.matrix.write_column(j, column);
+        (self.fill)(j, column);
         for (entry, row_scale) in column.iter_mut().zip(&self.scale) {
             *entry = row_scale * *entry * self.scale[j];
         }

@@ -1,18 +1,21 @@
-//! The LCP of contact without friction, or in 2D, as `contact` states it. Its matrix is not stored: its columns are
-//! made from those of `K` when the tableau asks for them.
+//! The LCP of contact without friction, or in 2D, as `lcp::lemke::contact` states it.
+//!
+//! Tangential components without friction, and normal ones without an obstacle, carry no contact force and are condensed. `K`
+//! may be singular: components that depend on others through a free motion are left out of the factor, and no singular
+//! block is inverted. The tension of pairs is a part of the load.
+//!
+//! The matrix of the LCP is not stored: its columns are made from those of the stiffness when a tableau asks for them.
 
 use std::borrow::Cow;
 
-use super::scaled::{Entries, Scaled};
+use crate::certificate::is_escape_of;
 use crate::law::{Contact, Piece};
 use crate::linalg::factor::cholesky_work;
-use crate::linalg::matrix::Matrix;
 use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
-use crate::solve::part::{INDEFINITE, driven_motion};
 use crate::solve::result::Ending;
 
 /// The LCP of a contact problem in the variables `(w, a, b)`.
@@ -27,29 +30,15 @@ pub struct ContactLcp<'p> {
     /// For each tangential component: the place of its pair in `normal`, and the slope of its bound; 0
     /// of a pair without an obstacle.
     coupling: Vec<(usize, f64)>,
-    stiffness: Stiffness<'p>,
+    /// The stiffness of the components that are left, half of it: a tableau beside it is larger than `K`. `None`: nothing is
+    /// condensed, and it is `K`.
+    condensed: Option<PackedSymmetric>,
+    /// Places of the components in it, normal, then tangential.
+    places: Vec<usize>,
 }
 
-/// The stiffness of the components that are left, normal, then tangential.
-enum Stiffness<'p> {
-    /// `K` itself where nothing is condensed, with the places of the components in it.
-    Whole(Matrix<'p>, Vec<usize>),
-    /// The Schur complement, half of it: the tableau beside it is larger than `K`.
-    Condensed(PackedSymmetric),
-}
-
-impl Stiffness<'_> {
-    /// Column of component `c`, and where in it component `i` stands.
-    fn column(&self, c: usize) -> (Cow<'_, [f64]>, impl Fn(usize) -> usize) {
-        let (column, places) = match self {
-            Stiffness::Whole(matrix, places) => {
-                (Cow::Borrowed(matrix.column(places[c])), Some(places))
-            }
-            Stiffness::Condensed(matrix) => (Cow::Owned(matrix.column(c)), None),
-        };
-        (column, move |i: usize| places.map_or(i, |places| places[i]))
-    }
-}
+/// `K` is no stiffness of a structure.
+const INDEFINITE: Ending = Ending::Stalled("K is not positive semi-definite");
 
 impl<'p> ContactLcp<'p> {
     /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
@@ -83,19 +72,39 @@ impl<'p> ContactLcp<'p> {
         if let Some(motion) = driven_motion(contact, &block, &at_rest) {
             return Err(Ending::Recession(motion));
         }
-        let stiffness = if condenses {
-            monitor.affords(block.schur_work(indices.len()))?;
-            let schur = block.schur_complement(&indices, &mut monitor.asking());
-            let schur = schur.ok_or(INDEFINITE)?;
-            Stiffness::Condensed(PackedSymmetric::new(indices.len(), schur))
-        } else {
-            Stiffness::Whole(problem.stiffness(), indices)
-        };
-        Ok(ContactLcp { contact, block, at_rest, normal, tangential, coupling, stiffness })
+        let (mut condensed, mut places) = (None, indices);
+        if condenses {
+            monitor.affords(block.schur_work(places.len()))?;
+            let schur = block.schur_complement(&places, &mut monitor.asking());
+            condensed = Some(PackedSymmetric::new(places.len(), schur.ok_or(INDEFINITE)?));
+            places = (0..places.len()).collect();
+        }
+        Ok(ContactLcp { contact, block, at_rest, normal, tangential, coupling, condensed, places })
     }
 
-    /// The problem to be solved, with the cohesion of the covering vector against slip to either side.
-    pub fn scaled(&self, cohesion: [f64; 2]) -> Scaled<'_> {
+    /// Gives clearances of a frictionless problem that nothing resists the stiffness of their units in its `matrix`. They are
+    /// closed if they are pushed; returned is the motion of one that is pulled, if it proves that no equilibrium exists.
+    pub fn stiffen_unresisted(&self, matrix: &mut [f64], q: &[f64]) -> Option<Vec<f64>> {
+        let (size, problem) = (self.places.len(), self.contact.problem());
+        let diagonal = matrix.iter_mut().step_by(size + 1);
+        let mut pulled = vec![0.0; size];
+        for (k, (&i, own)) in self.normal.iter().zip(diagonal).enumerate() {
+            if *own <= NEGLIGIBLE * problem.unit(i) {
+                *own = problem.unit(i);
+                pulled[k] = f64::from(u8::from(q[k] < 0.0));
+            }
+        }
+        let motion = self.motion(&pulled);
+        is_escape_of(self.contact, &motion).then_some(motion)
+    }
+
+    /// The variables of a frictionless problem at displacements.
+    pub fn clearances(&self, d: &[f64]) -> Vec<f64> {
+        self.normal.iter().map(|&i| self.at_rest[i] - d[i]).collect()
+    }
+
+    /// `q`, a covering vector with these cohesions against slip to either side, and roots of the units of all variables.
+    pub fn vectors(&self, cohesion: [f64; 2]) -> [Vec<f64>; 3] {
         let problem = self.contact.problem();
         let force = self.contact.force_without_tension(&self.at_rest);
         let root = |i: &usize| problem.unit(*i).sqrt();
@@ -112,7 +121,7 @@ impl<'p> ContactLcp<'p> {
             }
         }
         let components = self.normal.iter().chain(&self.tangential).chain(&self.tangential);
-        Scaled::new(self, &q, &covering, components.map(|i| root(i).recip()).collect())
+        [q, covering, components.map(root).collect()]
     }
 
     /// All displacements of a point of the path.
@@ -160,10 +169,9 @@ impl<'p> ContactLcp<'p> {
         let laws = self.contact.pairs().iter();
         laws.zip(variables).map(|(law, [w, a, b])| law.piece_of_variables(w, a, b)).collect()
     }
-}
 
-impl Entries for ContactLcp<'_> {
-    fn write_column(&self, j: usize, column: &mut [f64]) {
+    /// Writes column `j` of the matrix.
+    pub fn write_column(&self, j: usize, column: &mut [f64]) {
         let (n, m) = (self.normal.len(), self.tangential.len());
         // Variable j moves one component: a clearance, or a slip to one side.
         let (component, sign) = match j {
@@ -171,17 +179,34 @@ impl Entries for ContactLcp<'_> {
             j if j < n + m => (j, 1.0),
             j => (j - m, -1.0),
         };
-        let (source, place) = self.stiffness.column(component);
+        let place = self.places[component];
+        let source = match &self.condensed {
+            Some(stiffness) => Cow::Owned(stiffness.column(place)),
+            None => Cow::Borrowed(self.contact.problem().column(place)),
+        };
         let (clearances, slips) = column.split_at_mut(n);
         let (forward, backward) = slips.split_at_mut(m);
         for (i, entry) in clearances.iter_mut().enumerate() {
-            *entry = -sign * source[place(i)];
+            *entry = -sign * source[self.places[i]];
         }
         let sides = forward.iter_mut().zip(backward).zip(&self.coupling).enumerate();
         for (k, ((forward, backward), &(normal, slope))) in sides {
             let bound = clearances.get(normal).map_or(0.0, |clearance| slope * clearance);
-            let force = sign * source[place(n + k)];
+            let force = sign * source[self.places[n + k]];
             (*forward, *backward) = (bound + force, bound - force);
         }
     }
+}
+
+/// A motion of condensed components alone on which the loads do work, if there is one.
+fn driven_motion(contact: &Contact<'_>, block: &FreeBlock<'_>, d: &[f64]) -> Option<Vec<f64>> {
+    let problem = contact.problem();
+    block.dependent().next()?;
+    let force = contact.force_without_tension(d);
+    let mut motion = vec![0.0; contact.unknowns()];
+    for i in block.dependent() {
+        motion[i] = -force[i] / problem.unit(i);
+    }
+    block.follow(&mut motion);
+    is_escape_of(contact, &motion).then_some(motion)
 }
