@@ -54,8 +54,8 @@ impl Model {
         fixed: &[usize],
         pairs: &ContactPairs<'_>,
     ) -> Result<Self, Error> {
-        let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs)?);
-        Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        Self::sparse_within(matrix, fixed, pairs, None, monitor)
     }
 
     /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback and its threads. If
@@ -77,19 +77,19 @@ impl Model {
         let Monitor { full_space, reserve, .. } = *monitor;
         let ask = &mut |share, memory| monitor.reducing(share, memory);
         let control = Control { order, full_space, reserve, ask };
-        let reduction = Box::new(SparseReduction::controlled(matrix, fixed, pairs, control)?);
+        let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }
 
     /// Refuses a reduced matrix that no structure has.
     fn checked(self) -> Result<Self, Error> {
-        if self.reduction.matrix_free().is_some() {
+        if self.is_matrix_free() {
             return Ok(self);
         }
         let dependence = self.reduction.dependence();
         let size = dependence.map_or(self.dim * self.pairs, Dependence::variables);
         let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
-        symmetric_matrix::check(&matrix, 1, "K_rel", Argument::Matrix)?;
+        symmetric_matrix::check(&matrix, 1, ("K_rel", Argument::Matrix))?;
         Ok(self)
     }
 
@@ -180,9 +180,9 @@ impl Model {
             let problem = self.on_flexibility(form, case)?;
             return solve_flexibility(&problem, settings, start, monitor);
         }
-        if let Some(matrix_free) = self.reduction.matrix_free() {
+        if let Some(bodies) = self.reduction.bodies() {
             check_start("d", self.dim * self.pairs, start)?;
-            let solution = self.on_bodies(matrix_free, case, |bodies, case| {
+            let solution = self.on_bodies(bodies, case, |bodies, case| {
                 let mut solution = solve_matrix_free(bodies, case, settings, start, past, monitor)?;
                 solution.iterations = monitor.iterations();
                 Ok(solution)
@@ -286,11 +286,11 @@ impl Model {
 
     fn check_loads(&self, load: Option<&[f64]>, prescribed: Option<&[f64]>) -> Result<(), Error> {
         if let Some(load) = load {
-            check_vector(Argument::Load, "f", load, self.host_size())?;
+            check_vector(("f", Argument::Load), load, self.host_size())?;
         }
         match prescribed {
             Some(values) => {
-                check_vector(Argument::Prescribed, "prescribed", values, self.fixed_count())?;
+                check_vector(("prescribed", Argument::Prescribed), values, self.fixed_count())?;
                 self.reduction.check_prescribed(values)
             }
             None => Ok(()),

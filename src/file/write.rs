@@ -19,7 +19,7 @@ use crate::problem::{ContactProblem, Lcp, check_finite_matrix};
 /// was.
 pub fn write(path: &Path, problem: &ContactProblem<'_>, remark: Option<&str>) -> Result<(), Error> {
     let (dim, n, pairs, law) = (problem.dim(), problem.unknowns(), problem.pairs(), problem.law());
-    check_finite_matrix(Argument::Matrix, "K", &problem.stiffness())?;
+    check_finite_matrix(("K", Argument::Matrix), &problem.stiffness())?;
     // A value of each pair in its normal row.
     let in_normal_rows = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
         (0..n).map(|i| if i % dim == 0 { value(i / dim) } else { 0.0 }).collect()

@@ -32,8 +32,8 @@ impl<'p, R: Relation> Contact<'p, R> {
             for (component, slip0) in slip0[..problem.dim() - 1].iter_mut().enumerate() {
                 *slip0 = problem.reference_slip(pair, component);
             }
-            let stiffness = (problem.normal_stiffness(pair), problem.tangential_stiffness(pair));
             let (dim, gap) = (problem.dim(), problem.gap(pair));
+            let stiffness = (problem.unit(dim * pair), problem.tangential_stiffness(pair));
             PairLaw::new(dim, gap, slip0, Bound::FRICTIONLESS, stiffness)
                 .with_friction(problem.law().of_pair(pair))
         };

@@ -2,12 +2,11 @@
 
 use crate::error::{Argument, Error, entry};
 use crate::law::{first_open_tie, first_penetration};
-use crate::problem::{FrictionLaw, check_finite};
+use crate::problem::{FrictionLaw, Named, check_finite};
 
 /// Refuses a vector of the wrong length, or with entries that are not finite.
 pub(super) fn check_vector(
-    argument: Argument,
-    name: &str,
+    (name, argument): Named<'_>,
     values: &[f64],
     length: usize,
 ) -> Result<(), Error> {
@@ -15,7 +14,7 @@ pub(super) fn check_vector(
         let message = format!("{name} has {} entries, it must have {length}", values.len());
         return Err(Error::invalid(argument, message));
     }
-    check_finite(argument, name, values)
+    check_finite((name, argument), values)
 }
 
 /// Refuses a penetration, and the gap of a tie, that supports on both sides of a pair hold: no displacement takes it away.

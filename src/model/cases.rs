@@ -2,7 +2,7 @@
 
 use super::{LoadCase, Model};
 use crate::error::{Error, Limit};
-use crate::monitor::{Monitor, Progress, ProgressFn, Stop};
+use crate::monitor::{Monitor, ProgressFn, Stop};
 use crate::problem::Remembered;
 use crate::settings::Settings;
 use crate::solve::{CasePast, Solution, Status};
@@ -80,8 +80,7 @@ impl<'m> Series<'m> {
         let Past { remembered, spread, before } = &mut self.past;
         let mut is_cancelled = false;
         for block in cases.chunks(BLOCK) {
-            let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
-            let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+            let told = progress.as_deref_mut().map(|tell| tell as &mut ProgressFn<'_>);
             // The limits of time are those of each case.
             let limits = Settings { time_limit: 0.0, ..*settings };
             let monitor = &mut Monitor::new(&limits, told);
@@ -98,8 +97,7 @@ impl<'m> Series<'m> {
                     Starts::Given(all) => Some(all.get(n * k..n * (k + 1)).unwrap_or_default()),
                     Starts::Previous(first) => before.as_deref().or(first),
                 };
-                let mut told = progress.as_mut().map(|tell| |now: &Progress| tell(now));
-                let told = told.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+                let told = progress.as_deref_mut().map(|tell| tell as &mut ProgressFn<'_>);
                 let monitor = &mut Monitor::new(settings, told);
                 let load = if is_cancelled { Err(not_begun()) } else { load };
                 let solution = load.and_then(|load| {

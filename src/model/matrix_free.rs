@@ -6,8 +6,7 @@ use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
 use crate::problem::{StiffnessOperator, checked_dim, unknowns};
 use crate::reduce::{
-    HostOperator, MatrixFreeReduction, OperatorReduction, PreconditionedOperator,
-    PreconditionedReduction,
+    HostOperator, OperatorReduction, PreconditionedOperator, PreconditionedReduction,
 };
 use crate::solve::MatrixFreeCase;
 
@@ -61,14 +60,14 @@ impl Model {
     /// Hands over bodies whose stiffness is not formed with a load case.
     pub(super) fn on_bodies<T>(
         &self,
-        matrix_free: &dyn MatrixFreeReduction,
+        mut bodies: Box<dyn StiffnessOperator + '_>,
         case: &LoadCase<'_>,
         to: impl FnOnce(&mut dyn StiffnessOperator, &MatrixFreeCase<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_loads(Some(case.load), case.prescribed)?;
         check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
-        let load = matrix_free.all_loads(case.load, case.prescribed);
+        let load = self.reduction.all_loads(case.load, case.prescribed);
         let case = MatrixFreeCase {
             dim: self.dim,
             load: &load,
@@ -76,12 +75,12 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         };
-        to(&mut *matrix_free.bodies(), &case)
+        to(&mut *bodies, &case)
     }
 
     /// Returns `true` if the model forms no stiffness in relative displacements: it is in full space.
     pub fn is_matrix_free(&self) -> bool {
-        self.reduction.matrix_free().is_some()
+        self.reduction.inner_unknowns().is_some()
     }
 
     /// Refuses what needs the entries of a stiffness that is not formed.

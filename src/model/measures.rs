@@ -15,10 +15,10 @@ impl Model {
     /// ([`Argument::Start`]); pairs that depend on each other ([`Argument::Matrix`]), as `d` alone does not
     /// tell their forces.
     pub fn certify(&self, case: &LoadCase<'_>, d: &[f64]) -> Result<Certificate, Error> {
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        if let Some(matrix_free) = self.reduction.matrix_free() {
+        check_vector(("d", Argument::Start), d, self.dim * self.pairs)?;
+        if let Some(bodies) = self.reduction.bodies() {
             return self
-                .on_bodies(matrix_free, case, |bodies, case| certify_matrix_free(bodies, case, d));
+                .on_bodies(bodies, case, |bodies, case| certify_matrix_free(bodies, case, d));
         }
         self.reduced((case, None), |problem| Ok(certify(problem, d)))
     }
@@ -34,8 +34,8 @@ impl Model {
         d: &[f64],
         force: &[f64],
     ) -> Result<Certificate, Error> {
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
-        check_vector(Argument::Force, "F", force, self.dim * self.pairs)?;
+        check_vector(("d", Argument::Start), d, self.dim * self.pairs)?;
+        check_vector(("F", Argument::Force), force, self.dim * self.pairs)?;
         self.check_loads(Some(case.load), case.prescribed)?;
         if let Some(dependence) = self.reduction.dependence() {
             return self.on_dependent_rows(dependence, (case, None), |problem| {
@@ -66,7 +66,7 @@ impl Model {
         d: &[f64],
         states: Option<&[State]>,
     ) -> Result<Option<Proof>, Error> {
-        check_vector(Argument::Start, "d", d, self.dim * self.pairs)?;
+        check_vector(("d", Argument::Start), d, self.dim * self.pairs)?;
         self.reduced((case, None), |problem| {
             let own = || certify(problem, d).states;
             Ok(prove(problem, d, &states.map_or_else(own, <[State]>::to_vec)))

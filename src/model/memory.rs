@@ -13,9 +13,9 @@ impl Model {
         if let Some(form) = self.reduction.flexibility() {
             return memory_of_flexibility(&form);
         }
-        if let Some(matrix_free) = self.reduction.matrix_free() {
-            let inner = matrix_free.bodies().inner();
-            return matrix_free.factor_bytes() + memory_matrix_free(inner + self.dim * self.pairs);
+        if let Some(inner) = self.reduction.inner_unknowns() {
+            let unknowns = inner + self.dim * self.pairs;
+            return self.reduction.factor_bytes() + memory_matrix_free(unknowns);
         }
         // Dependent rows are solved with springs between bodies and contact.
         let springs = self.reduction.dependence().map_or(0, Dependence::variables);
@@ -44,8 +44,6 @@ impl Model {
 
     /// Most bytes that recovering so many load cases takes beside the model and what the host holds.
     pub(crate) fn memory_of_recovery(&self, cases: usize) -> u64 {
-        let factor =
-            self.reduction.matrix_free().map_or(0, |matrix_free| matrix_free.factor_bytes());
-        self.memory_of_cases(cases).saturating_add(factor)
+        self.memory_of_cases(cases).saturating_add(self.reduction.factor_bytes())
     }
 }

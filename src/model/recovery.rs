@@ -63,7 +63,7 @@ impl Model {
     /// Refuses arrays of the wrong length or not finite.
     fn check_solved(&self, case: &SolvedCase<'_>) -> Result<(), Error> {
         self.check_loads(case.load, case.prescribed)?;
-        check_vector(Argument::Start, "d", case.d, self.dim * self.pairs)
+        check_vector(("d", Argument::Start), case.d, self.dim * self.pairs)
     }
 
     /// Contact forces as a nodal force vector of the host.
@@ -71,7 +71,7 @@ impl Model {
     /// # Errors
     /// A force of the wrong length or not finite, or so large that nodal forces overflow.
     pub fn nodal_forces(&self, force: &[f64]) -> Result<Vec<f64>, Error> {
-        check_vector(Argument::Load, "F", force, self.dim * self.pairs)?;
+        check_vector(("F", Argument::Load), force, self.dim * self.pairs)?;
         not_overflown(Argument::Load, "nodal", self.reduction.nodal_forces(force))
     }
 }

@@ -6,6 +6,9 @@ use crate::error::{Argument, Error, entry};
 use crate::linalg::matrix::{Matrix, can_exist, required_length};
 use crate::linalg::vector::first_not_finite;
 
+/// The host's name of an array, and the argument that it is.
+pub(crate) type Named<'a> = (&'a str, Argument);
+
 /// The arguments of the first or only matrix of a call.
 pub(crate) const OF_MATRIX: (Argument, Argument) = (Argument::Matrix, Argument::LeadingDimension);
 
@@ -22,7 +25,7 @@ pub(crate) fn dense<'a>(
 ) -> Result<Matrix<'a>, Error> {
     let entries =
         required_length(name, rows, ld).map_err(|message| Error::invalid(leading, message))?;
-    check_length(matrix, name, values.len(), entries)?;
+    check_length((name, matrix), values.len(), entries)?;
     Ok(Matrix::new(rows, values, ld))
 }
 
@@ -31,20 +34,18 @@ pub(crate) fn dense<'a>(
 /// # Errors
 /// A vector that is shorter; the first of these entries that is not finite.
 pub(super) fn vector<'a>(
-    argument: Argument,
-    name: &str,
+    named: Named<'_>,
     values: &'a [f64],
     length: usize,
 ) -> Result<&'a [f64], Error> {
-    check_length(argument, name, values.len(), length)?;
-    check_finite(argument, name, &values[..length])?;
+    check_length(named, values.len(), length)?;
+    check_finite(named, &values[..length])?;
     Ok(&values[..length])
 }
 
 /// Refuses an array with fewer entries than are needed.
 pub(super) fn check_length(
-    argument: Argument,
-    name: &str,
+    (name, argument): Named<'_>,
     given: usize,
     needed: usize,
 ) -> Result<(), Error> {
@@ -56,7 +57,7 @@ pub(super) fn check_length(
 }
 
 /// Refuses the first entry that is not finite.
-pub(crate) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_finite((name, argument): Named<'_>, values: &[f64]) -> Result<(), Error> {
     match first_not_finite(values) {
         Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
         None => Ok(()),
@@ -65,8 +66,7 @@ pub(crate) fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Re
 
 /// Refuses the first entry of a matrix that is not finite.
 pub(crate) fn check_finite_matrix(
-    argument: Argument,
-    name: &str,
+    (name, argument): Named<'_>,
     matrix: &Matrix<'_>,
 ) -> Result<(), Error> {
     for j in 0..matrix.size() {

@@ -46,7 +46,7 @@ impl<'a> ContactProblem<'a> {
     /// are; a [`crate::Model`] tells them from rounding.
     pub fn new(data: ContactData<'a>) -> Result<Self, Error> {
         let problem = Self::on_checked_matrix(data)?;
-        symmetric_matrix::check(&problem.relation.matrix, data.dim, "K", Argument::Matrix)?;
+        symmetric_matrix::check(&problem.relation.matrix, data.dim, ("K", Argument::Matrix))?;
         Ok(problem)
     }
 
@@ -62,7 +62,7 @@ impl<'a> ContactProblem<'a> {
             let message = "dim is 2: a matrix that is not symmetric is for dim 3";
             return Err(Error::invalid(Argument::Dimension, message));
         }
-        symmetric_matrix::check_diagonal(&problem.relation.matrix, "K", Argument::Matrix)?;
+        symmetric_matrix::check_diagonal(&problem.relation.matrix, ("K", Argument::Matrix))?;
         let matrix = problem.relation.matrix;
         if let Some(i) = (0..matrix.size()).find(|&i| matrix.at(i, i) == 0.0) {
             let message = format!("{} is 0, it must be positive", entry("K", [i, i]));
@@ -81,7 +81,7 @@ impl<'a> ContactProblem<'a> {
     pub(crate) fn on_checked_matrix(data: ContactData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
         let matrix = dense("K", (data.stiffness, data.ld), size, OF_MATRIX)?;
-        let load = vector(Argument::Load, "f", data.load, size)?;
+        let load = vector(("f", Argument::Load), data.load, size)?;
         Self::with_relation(
             Stiffness::new(matrix, load, data.dim),
             data.dim,
@@ -207,13 +207,14 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
             let message = format!("{} components are no pairs of {dim}", relation.size());
             return Err(Error::invalid(Argument::Size, message));
         }
-        check_length(Argument::Gap, "gap", gap.len(), pairs)?;
-        check_length(Argument::Law, "friction", law.values().len(), law.parameters() * pairs)?;
+        check_length(("gap", Argument::Gap), gap.len(), pairs)?;
+        let parameters = law.parameters() * pairs;
+        check_length(("friction", Argument::Law), law.values().len(), parameters)?;
         let slips = (dim - 1) * pairs;
         let reference_slip = reference_slip
-            .map(|slip| vector(Argument::ReferenceSlip, "slip0", slip, slips))
+            .map(|slip| vector(("slip0", Argument::ReferenceSlip), slip, slips))
             .transpose()?;
-        let (gap, law) = (&gap[..pairs], law.truncated(pairs));
+        let (gap, law) = (&gap[..pairs], law.with_values(&law.values()[..parameters]));
         check_gaps(gap)?;
         law.check(dim)?;
         Ok(ContactProblem { relation, dim, gap, law, reference_slip, host: None })
@@ -266,11 +267,6 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
     /// Square roots of the units of all components.
     pub fn unit_roots(&self) -> Vec<f64> {
         (0..self.unknowns()).map(|i| self.unit(i).sqrt()).collect()
-    }
-
-    /// Force per length of the normal component of a pair.
-    pub fn normal_stiffness(&self, pair: usize) -> f64 {
-        self.relation.block(self.dim * pair, self.dim * pair)
     }
 
     /// Force per length of the tangential components of a pair: the largest eigenvalue of their block.

@@ -91,7 +91,7 @@ impl<'a> FlexibilityProblem<'a> {
         (gap, law, reference_slip): (&'a [f64], FrictionLaw<'a>, Option<&'a [f64]>),
     ) -> Result<Self, Error> {
         let units = form.units(dim);
-        let free = vector(Argument::Load, "q", free, units.len())?;
+        let free = vector(("q", Argument::Load), free, units.len())?;
         let relation = Flexibility::new(form, free, units);
         ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
     }
@@ -109,7 +109,7 @@ impl<'a> Flexibility<'a> {
     ) -> Result<Matrix<'a>, Error> {
         let matrix = dense("W", (w, ld), size, OF_MATRIX)?;
         let root = matrix.diagonal_roots();
-        symmetric_matrix::check_beside(&matrix, &root, "W", Argument::Matrix)?;
+        symmetric_matrix::check_beside(&matrix, &root, ("W", Argument::Matrix))?;
         if size > 0 && matrix.largest_diagonal() == 0.0 {
             return Err(Error::invalid(Argument::Matrix, ZERO));
         }

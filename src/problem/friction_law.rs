@@ -140,11 +140,6 @@ impl<'a> FrictionLaw<'a> {
         self.law().statement().frictionless_if
     }
 
-    /// Copies the law of the first `pairs` pairs.
-    pub(super) fn truncated(self, pairs: usize) -> Self {
-        self.with_values(&self.values()[..self.parameters() * pairs])
-    }
-
     /// Refuses parameters that are out of range.
     pub(crate) fn check(self, dim: usize) -> Result<(), Error> {
         const IN_PLANE: &str =

@@ -34,12 +34,12 @@ impl<'a> Lcp<'a> {
         covering: Option<&'a [f64]>,
     ) -> Result<Self, Error> {
         let matrix = dense("M", (matrix, ld), size, OF_MATRIX)?;
-        check_length(Argument::Load, "q", q.len(), size)?;
-        check_length(Argument::Covering, "cover", covering.map_or(size, <[f64]>::len), size)?;
+        check_length(("q", Argument::Load), q.len(), size)?;
+        check_length(("cover", Argument::Covering), covering.map_or(size, <[f64]>::len), size)?;
         let (q, covering) = (&q[..size], covering.map(|covering| &covering[..size]));
         let lcp = Lcp { matrix, q, covering };
-        check_finite_matrix(Argument::Matrix, "M", &matrix)?;
-        check_finite(Argument::Load, "q", q)?;
+        check_finite_matrix(("M", Argument::Matrix), &matrix)?;
+        check_finite(("q", Argument::Load), q)?;
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {

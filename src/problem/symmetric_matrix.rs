@@ -1,7 +1,7 @@
 //! Validation of a host's dense symmetric matrix.
 
-use super::arguments::check_finite_matrix;
-use crate::error::{Argument, Error, entry, index};
+use super::arguments::{Named, check_finite_matrix};
+use crate::error::{Error, entry, index};
 use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::{Matrix, tiles};
 use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
@@ -26,47 +26,35 @@ fn roots(matrix: &Matrix<'_>, group: usize) -> Vec<f64> {
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of rows that are not zero,
 /// a matrix of zeros, asymmetry beyond rounding, and entries that a positive semi-definite matrix
-/// cannot have, each but for what a condensation leaves beside the entries of the same `group` of components. `name` is
-/// the host's name of the matrix.
+/// cannot have, each but for what a condensation leaves beside the entries of the same `group` of components.
 ///
 /// A row of zeros is a component that a free body moves without a force: a foot along its normal, if the
 /// body stands on two feet in the plane, or on three in space.
-pub(crate) fn check(
-    matrix: &Matrix<'_>,
-    group: usize,
-    name: &str,
-    argument: Argument,
-) -> Result<(), Error> {
-    check_beside(matrix, &roots(matrix, group), name, argument)?;
-    check_not_zero(matrix, name, argument)
+pub(crate) fn check(matrix: &Matrix<'_>, group: usize, named: Named<'_>) -> Result<(), Error> {
+    check_beside(matrix, &roots(matrix, group), named)?;
+    check_not_zero(matrix, named)
 }
 
 /// As [`check`], beside these roots of the diagonal; a matrix of zeros passes.
 pub(super) fn check_beside(
     matrix: &Matrix<'_>,
     root: &[f64],
-    name: &str,
-    argument: Argument,
+    named: Named<'_>,
 ) -> Result<(), Error> {
-    if is_plainly_semi_definite(matrix, root) {
+    // One pass over the matrix: entries that are not finite agree with nothing. The others find what is wrong where it is.
+    if root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, AGREES, 1.0 + AGREES)
+    {
         return Ok(());
     }
-    check_columns(matrix, root, name, argument)?;
-    check_across(matrix, root, name, argument)
-}
-
-/// Returns `true` if [`check_columns`] and [`check_across`] find nothing, in one pass over the matrix: entries that are not
-/// finite agree with nothing. They find what is wrong where it is.
-fn is_plainly_semi_definite(matrix: &Matrix<'_>, root: &[f64]) -> bool {
-    root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, AGREES, 1.0 + AGREES)
+    check_columns(matrix, root, named)?;
+    check_across(matrix, root, named)
 }
 
 /// Refuses asymmetry beyond rounding and entries that a diagonal with these roots does not allow.
 fn check_across(
     matrix: &Matrix<'_>,
     root: &[f64],
-    name: &str,
-    argument: Argument,
+    (name, argument): Named<'_>,
 ) -> Result<(), Error> {
     let below = tiles(matrix.size()).flat_map(|(columns, rows)| {
         columns.flat_map(move |j| (rows.start.max(j + 1)..rows.end).map(move |i| (i, j)))
@@ -111,7 +99,7 @@ pub(crate) fn beyond_diagonal(
 pub(crate) fn check_semidefinite(
     matrix: &Matrix<'_>,
     dim: usize,
-    (name, argument): (&str, Argument),
+    (name, argument): Named<'_>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<(), Error> {
     let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
@@ -133,16 +121,12 @@ pub(crate) fn check_semidefinite(
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of columns that are not
 /// zero, and a matrix of zeros.
-pub(crate) fn check_diagonal(
-    matrix: &Matrix<'_>,
-    name: &str,
-    argument: Argument,
-) -> Result<(), Error> {
-    check_columns(matrix, &matrix.diagonal_roots(), name, argument)?;
-    check_not_zero(matrix, name, argument)
+pub(crate) fn check_diagonal(matrix: &Matrix<'_>, named: Named<'_>) -> Result<(), Error> {
+    check_columns(matrix, &matrix.diagonal_roots(), named)?;
+    check_not_zero(matrix, named)
 }
 
-fn check_not_zero(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result<(), Error> {
+fn check_not_zero(matrix: &Matrix<'_>, (name, argument): Named<'_>) -> Result<(), Error> {
     if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
         let message = format!(
             "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \
@@ -158,12 +142,11 @@ fn check_not_zero(matrix: &Matrix<'_>, name: &str, argument: Argument) -> Result
 fn check_columns(
     matrix: &Matrix<'_>,
     root: &[f64],
-    name: &str,
-    argument: Argument,
+    (name, argument): Named<'_>,
 ) -> Result<(), Error> {
     let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
-    check_finite_matrix(argument, name, matrix)?;
+    check_finite_matrix((name, argument), matrix)?;
     for j in 0..matrix.size() {
         let column = matrix.column(j);
         if root[j].is_nan() {

@@ -7,6 +7,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
 use crate::linalg::watched::GoesOn;
+use crate::problem::Named;
 use crate::problem::symmetric_matrix::{check, check_semidefinite, is_symmetric_beside};
 
 /// The host's condensed stiffness.
@@ -34,8 +35,7 @@ impl CondensedReduction {
 }
 
 /// Checks a host's condensed matrix, and returns it, contiguous, exact on the motions that are free up to
-/// the rounding of its condensation; `None` if it is to be taken as it is. `name` is the host's name of
-/// the matrix.
+/// the rounding of its condensation; `None` if it is to be taken as it is.
 ///
 /// It is changed only if a diagonal entry is at most 9e-12 of the largest one of its pair and the
 /// component is coupled to others: that may be rounding of a free body on few points. Then motions of
@@ -48,12 +48,12 @@ impl CondensedReduction {
 pub(super) fn settled(
     dim: usize,
     matrix: &Matrix<'_>,
-    (name, argument): (&str, Argument),
+    named: Named<'_>,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Vec<f64>>, Error> {
     let cleaned = without_rounding(dim, matrix, go_on);
-    check(&view(matrix, &cleaned), dim, name, argument)?;
-    check_semidefinite(&view(matrix, &cleaned), dim, (name, argument), go_on)?;
+    check(&view(matrix, &cleaned), dim, named)?;
+    check_semidefinite(&view(matrix, &cleaned), dim, named, go_on)?;
     Ok(cleaned)
 }
 

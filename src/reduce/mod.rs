@@ -15,7 +15,6 @@ mod pairs;
 mod preconditioned;
 mod probes;
 mod reduction;
-mod rows;
 mod sparse;
 mod two_body;
 
@@ -27,7 +26,7 @@ pub use memory::{memory, memory_of_vectors};
 pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
 pub use preconditioned::{Held, PreconditionedOperator, PreconditionedReduction};
-pub use reduction::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase};
+pub use reduction::{HostLoad, Reduction, SolvedCase};
 pub use sparse::{
     Control, Indices, SparseFlexibilityData, SparseMatrix, SparseReduction, Triangle,
 };

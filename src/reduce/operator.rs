@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::probes::{called, checked_images, is_unit, measured_units, probe, refuse};
-use super::{MatrixFreeReduction, Reduction};
+use super::Reduction;
+use super::probes::{called, check_units, checked_images, measured_units, probe, refuse};
 use crate::error::{Error, entry};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
@@ -79,17 +79,14 @@ impl OperatorReduction {
         if !(operator.has_inverse() || operator.has_held()) {
             return refuse("neither inverse nor held is given: give one of them".into());
         }
-        if let Some(wrong) = units.and_then(|units| units.iter().position(|unit| !is_unit(*unit))) {
-            let place = entry("units", [wrong]);
-            return refuse(format!("{place} must be positive and finite"));
-        }
+        check_units(units.unwrap_or_default())?;
         let agrees = operator.accuracy();
         // Written so that NaN is refused.
         if !(agrees > 0.0 && agrees < 1.0) {
             return refuse(format!("accuracy is {agrees}, it must be between 0 and 1"));
         }
         let held = Mutex::new(Vec::new());
-        let mut reduction = OperatorReduction { operator, units: vec![1.0; size], held };
+        let reduction = OperatorReduction { operator, units: vec![1.0; size], held };
         if size == 0 {
             return Ok(reduction);
         }
@@ -114,18 +111,11 @@ impl OperatorReduction {
                 }
             }
         }
-        match units {
-            Some(units) => reduction.units.copy_from_slice(units),
-            None => match measured_units(dim, &probes, &products) {
-                Some(units) => reduction.units = units,
-                None => {
-                    return refuse(
-                        "K_rel resists nothing: x . K_rel x is not positive: give units".into(),
-                    );
-                }
-            },
-        }
-        Ok(reduction)
+        let measured = || measured_units(dim, &probes, &products);
+        let Some(units) = units.map(<[f64]>::to_vec).or_else(measured) else {
+            return refuse("K_rel resists nothing: x . K_rel x is not positive: give units".into());
+        };
+        Ok(OperatorReduction { units, ..reduction })
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
@@ -149,18 +139,16 @@ impl OperatorReduction {
 }
 
 impl Reduction for OperatorReduction {
-    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
-        Some(self)
+    fn inner_unknowns(&self) -> Option<usize> {
+        Some(0)
+    }
+
+    fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
+        Some(Box::new(InUse { operator: self, held: Vec::new() }))
     }
 
     fn host_size(&self) -> usize {
         self.units.len()
-    }
-}
-
-impl MatrixFreeReduction for OperatorReduction {
-    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
-        Box::new(InUse { operator: self, held: Vec::new() })
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::probes::{called, checked_images, is_unit, probe, refuse};
-use super::{HostLoad, MatrixFreeReduction, Reduction, SolvedCase};
+use super::probes::{called, check_units, checked_images, probe, refuse};
+use super::{HostLoad, Reduction, SolvedCase};
 use crate::error::{Error, entry, index};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
@@ -68,10 +68,7 @@ impl PreconditionedReduction {
         units: &[f64],
         components: &[usize],
     ) -> Result<Self, Error> {
-        if let Some(wrong) = units.iter().position(|unit| !is_unit(*unit)) {
-            let place = entry("units", [wrong]);
-            return refuse(format!("{place} must be positive and finite"));
-        }
+        check_units(units)?;
         let places = places(units.len(), components)?;
         let of_place = |place: &usize| units[*place];
         let reduction = PreconditionedReduction {
@@ -173,8 +170,16 @@ fn places(unknowns: usize, components: &[usize]) -> Result<Vec<usize>, Error> {
 }
 
 impl Reduction for PreconditionedReduction {
-    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
-        Some(self)
+    fn inner_unknowns(&self) -> Option<usize> {
+        Some(self.inner())
+    }
+
+    fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
+        Some(Box::new(InUse { operator: self, held_set: HeldSet::none(self.dim, self.pairs) }))
+    }
+
+    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.of_host(load)
     }
 
     fn host_size(&self) -> usize {
@@ -211,16 +216,6 @@ impl Reduction for PreconditionedReduction {
         let mut all = vec![0.0; self.inner()];
         all.extend_from_slice(force);
         self.to_host(&all)
-    }
-}
-
-impl MatrixFreeReduction for PreconditionedReduction {
-    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
-        Box::new(InUse { operator: self, held_set: HeldSet::none(self.dim, self.pairs) })
-    }
-
-    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
-        self.of_host(load)
     }
 }
 

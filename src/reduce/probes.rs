@@ -39,8 +39,16 @@ pub(super) fn measured_units(
     Some(of_pair.iter().copied().cycle().take(probes[0].len()).collect())
 }
 
-pub(super) fn is_unit(unit: f64) -> bool {
+fn is_unit(unit: f64) -> bool {
     unit > 0.0 && unit.is_finite()
+}
+
+/// Refuses units that are not positive and finite.
+pub(super) fn check_units(units: &[f64]) -> Result<(), Error> {
+    match units.iter().position(|unit| !is_unit(*unit)) {
+        Some(i) => refuse(format!("{} must be positive and finite", entry("units", [i]))),
+        None => Ok(()),
+    }
 }
 
 /// The images of two probes, if a map has them that `agrees` to this with a linear, symmetric, positive semi-definite and

@@ -4,22 +4,6 @@ use super::motion;
 use crate::error::{Error, Message};
 use crate::problem::{Dependence, FlexibilityForm, GoesOn, StiffnessOperator};
 
-/// A reduction that changes variables and condenses nothing.
-pub trait MatrixFreeReduction {
-    /// The operator that a solver works on, for one load case at a time.
-    fn bodies(&self) -> Box<dyn StiffnessOperator + '_>;
-
-    /// Loads of all unknowns of [`Self::bodies`] in a load case.
-    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
-        load.to_vec()
-    }
-
-    /// Most bytes that [`Self::bodies`] take at work beside this reduction, without what the host's functions take.
-    fn factor_bytes(&self) -> u64 {
-        0
-    }
-}
-
 /// Nodal loads of the host, and values of the fixed degrees of freedom (`None`: zero).
 pub type HostLoad<'a> = (&'a [f64], Option<&'a [f64]>);
 
@@ -47,9 +31,25 @@ pub trait Reduction: Send + Sync {
         &[]
     }
 
-    /// The reduction that is asked in the place of a stiffness that is not formed; [`Self::stiffness`] is empty then.
-    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
+    /// Number of inner unknowns of [`Self::bodies`]; `None` where a stiffness is formed.
+    fn inner_unknowns(&self) -> Option<usize> {
         None
+    }
+
+    /// The operator that a solver works on in the place of a stiffness that is not formed, for one load case at a time;
+    /// [`Self::stiffness`] is empty then.
+    fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
+        None
+    }
+
+    /// Loads of all unknowns of [`Self::bodies`] in a load case.
+    fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
+        load.to_vec()
+    }
+
+    /// Most bytes that [`Self::bodies`] take at work beside this reduction, without what the host's functions take.
+    fn factor_bytes(&self) -> u64 {
+        0
     }
 
     /// The matrix of the flexibility form; [`Self::stiffness`] is empty then.

@@ -32,10 +32,7 @@ fn measured(each: [f64; 3], pairs: usize) -> (Option<Vec<f64>>, Vec<Vec<f64>>) {
     let asked = Arc::new(Mutex::new(Vec::new()));
     let host = Springs { each, asked: asked.clone() };
     let reduction = OperatorReduction::new(Box::new(host), (3, pairs), None).ok();
-    let units = |reduction: &OperatorReduction| {
-        let operator = reduction.matrix_free().unwrap();
-        operator.bodies().units().to_vec()
-    };
+    let units = |reduction: &OperatorReduction| reduction.bodies().unwrap().units().to_vec();
     let mut asked = std::mem::take(&mut *asked.lock().unwrap());
     asked.truncate(2);
     (reduction.as_ref().map(units), asked)

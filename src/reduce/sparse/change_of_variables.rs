@@ -18,7 +18,7 @@ use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure};
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
-use crate::reduce::rows::Rows;
+use crate::reduce::pairs::Rows;
 
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.

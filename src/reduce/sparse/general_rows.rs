@@ -19,7 +19,7 @@ use crate::linalg::vector3::{self, Vector3, unit};
 use crate::problem::Dependence;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
-use crate::reduce::rows::Rows;
+use crate::reduce::pairs::Rows;
 
 /// The host's degrees of freedom, solved for general rows.
 pub(super) struct GeneralRows {
@@ -63,8 +63,8 @@ pub(super) fn general_rows(
     let solved = solve(&rows.equations, places.len(), &may_choose);
     let mut supports = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
-        let held = HeldPair::new(rows, &solved, pair);
-        supports.extend(held.map(|held| held.along(frame, may_turn, places)).unwrap_or_default());
+        let pair = (pair, rows.dim);
+        supports.extend(held_components((&solved, places), pair, (frame, may_turn)));
     }
     let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
     rows.assembled(&solved, supports, dependents)
@@ -76,65 +76,51 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
     solved.dependent[dim * pair + axis].as_ref()
 }
 
-/// A pair that supports hold along some directions, or along none.
-struct HeldPair<'s> {
-    pair: usize,
-    dim: usize,
-    /// The equations that follow from others of the pair and from fixed values, by axis.
-    of_axes: Vec<(usize, &'s Expression)>,
+/// The components of a pair that supports hold along directions, with its frame turned exactly along them: none if none
+/// are, or if one of its equations follows from those of other pairs. A pair whose nodes are fixed along every axis
+/// rests, as where a surface ends at a wall.
+fn held_components(
+    (solved, places): (&Solved, &[Option<usize>]),
+    (pair, dim): (usize, usize),
+    (frame, may_turn): (&mut Frame, bool),
+) -> Vec<FixedComponent> {
+    // The equations that follow from others of the pair and from fixed values, by axis.
+    let of_axis = |axis| Some((axis, dependent(solved, pair, dim, axis)?));
+    let of_axes: Vec<(usize, &Expression)> = (0..dim).filter_map(of_axis).collect();
+    let own = dim * pair..dim * (pair + 1);
+    let mut sides = of_axes.iter().flat_map(|(_, expression)| &expression.right_sides);
+    if !sides.all(|(equation, _)| own.contains(equation)) {
+        return Vec::new();
+    }
+    let along = frame.along(&held_directions(&of_axes, dim), may_turn).unwrap_or_default();
+    let fixed = |component: usize| {
+        let direction = frame.direction(component);
+        let of_axis = |(axis, expression): &(usize, &Expression)| {
+            let part = direction[*axis];
+            let values = expression.unknowns.iter();
+            values.filter_map(|&(dof, a)| Some((places[dof]?, part * a))).collect::<Terms>()
+        };
+        let jump = of_axes.iter().flat_map(of_axis).filter(|(_, a)| *a != 0.0).collect();
+        let component = dim * pair + component;
+        FixedComponent { pair, component, variable: component, jump }
+    };
+    along.into_iter().map(fixed).collect()
 }
 
-impl<'s> HeldPair<'s> {
-    /// `None` if one of its equations follows from those of other pairs. A pair whose nodes are fixed along every axis
-    /// rests, as where a surface ends at a wall.
-    fn new(rows: &Rows, solved: &'s Solved, pair: usize) -> Option<Self> {
-        let dim = rows.dim;
-        let of_axis = |axis| Some((axis, dependent(solved, pair, dim, axis)?));
-        let of_axes: Vec<_> = (0..dim).filter_map(of_axis).collect();
-        let own = dim * pair..dim * (pair + 1);
-        let mut sides = of_axes.iter().flat_map(|(_, expression)| &expression.right_sides);
-        let alone = sides.all(|(equation, _)| own.contains(equation));
-        alone.then_some(HeldPair { pair, dim, of_axes })
-    }
-
-    /// Orthonormal directions along which the pair is held: of those with `delta_a = sum c_b delta_b + fixed values`.
-    fn directions(&self) -> Vec<Vector3> {
-        let mut directions: Vec<Vector3> = Vec::new();
-        for (axis, expression) in &self.of_axes {
-            let mut direction = vector3::axis(*axis);
-            for (equation, share) in &expression.right_sides {
-                direction[equation % self.dim] -= share;
-            }
-            for other in &directions {
-                direction -= direction.dot(other) * other;
-            }
-            directions.extend(unit(direction));
+/// Orthonormal directions along which a pair is held: of those with `delta_a = sum c_b delta_b + fixed values`.
+fn held_directions(of_axes: &[(usize, &Expression)], dim: usize) -> Vec<Vector3> {
+    let mut directions: Vec<Vector3> = Vec::new();
+    for (axis, expression) in of_axes {
+        let mut direction = vector3::axis(*axis);
+        for (equation, share) in &expression.right_sides {
+            direction[equation % dim] -= share;
         }
-        directions
+        for other in &directions {
+            direction -= direction.dot(other) * other;
+        }
+        directions.extend(unit(direction));
     }
-
-    /// The components that are held, with the frame turned exactly along them; none if none are.
-    fn along(
-        &self,
-        frame: &mut Frame,
-        may_turn: bool,
-        places: &[Option<usize>],
-    ) -> Vec<FixedComponent> {
-        let along = frame.along(&self.directions(), may_turn).unwrap_or_default();
-        let fixed = |component: usize| {
-            let direction = frame.direction(component);
-            let of_axis = |(axis, expression): &(usize, &Expression)| {
-                let part = direction[*axis];
-                let values = expression.unknowns.iter();
-                let values = values.filter_map(|&(dof, a)| Some((places[dof]?, part * a)));
-                values.collect::<Terms>()
-            };
-            let jump = self.of_axes.iter().flat_map(of_axis).filter(|(_, a)| *a != 0.0).collect();
-            let component = self.dim * self.pair + component;
-            FixedComponent { pair: self.pair, component, variable: component, jump }
-        };
-        along.into_iter().map(fixed).collect()
-    }
+    directions
 }
 
 impl<'r> KeptRows<'r> {

@@ -3,6 +3,7 @@
 
 use super::host_arrays::{Indices, SparseMatrix};
 use crate::error::{entry, index};
+use crate::linalg::sparse_schur::Failure;
 use crate::problem::symmetric_matrix;
 use crate::reduce::motion;
 
@@ -110,45 +111,45 @@ pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
     )
 }
 
-/// The factorisation met a negative pivot at a degree of freedom.
-pub(super) fn indefinite(dof: Option<&usize>) -> String {
-    match dof {
-        Some(dof) => {
-            format!("K is not positive semi-definite, as degree of freedom {} shows", index(dof))
-        }
-        None => "K is not positive semi-definite".into(),
-    }
-}
-
-/// A motion `u` of the host without stiffness, support or pair.
-pub(super) fn free_motion(u: &[f64]) -> String {
-    format!("a motion remains that no support and no pair holds: it moves {}", motion::of_host(u))
-}
-
-/// The energy of a motion `u` of the host is negative.
-pub(super) fn negative_energy(u: &[f64]) -> String {
-    format!(
-        "K is not positive semi-definite: the energy of a motion is negative: it moves {}",
-        motion::of_host(u)
-    )
-}
-
 /// Why rows of surfaces nearly depend on each other, and what to do.
 const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
      plane of symmetry are finer than what they face, name the plane where they are paired, or let the other side be \
      the slave";
 
-/// The stiffness against a motion `u` of the host cannot be told from rounding. Pairs of general rows may
-/// nearly follow from others, which enlarges it.
-pub(super) fn unclear_motion(u: &[f64], general: bool) -> String {
-    let said = format!(
-        "the stiffness against a motion cannot be told from the rounding of K: it moves {}",
-        motion::of_host(u)
-    );
-    let remedy = "support the motion, or hold it by springs that are not so soft beside K";
-    match general {
-        true => format!("{said}: {NEARLY_DEPENDENT}; otherwise {remedy}"),
-        false => format!("{said}: {remedy}"),
+/// Why the factorisation failed, with motions by `host` in degrees of freedom of the host, and the free ones of these. Pairs of
+/// `general` rows may nearly follow from others, which enlarges rounding.
+///
+/// # Panics
+/// If it was stopped, or lacks memory: that is told elsewhere.
+pub(super) fn failure(
+    failure: Failure,
+    free: &[usize],
+    host: impl Fn(&[f64]) -> Vec<f64>,
+    general: bool,
+) -> String {
+    let moves = |x: &[f64]| format!("it moves {}", motion::of_host(&host(x)));
+    let indefinite = "K is not positive semi-definite";
+    match failure {
+        Failure::OutOfMemory | Failure::Stopped => unreachable!("who stops it says why"),
+        Failure::Indefinite(row) => match free.get(row) {
+            Some(dof) => format!("{indefinite}, as degree of freedom {} shows", index(dof)),
+            None => indefinite.into(),
+        },
+        Failure::Negative(x) => {
+            format!("{indefinite}: the energy of a motion is negative: {}", moves(&x))
+        }
+        Failure::NullVector(x) => {
+            format!("a motion remains that no support and no pair holds: {}", moves(&x))
+        }
+        Failure::Unclear(x) => {
+            let otherwise =
+                if general { format!("{NEARLY_DEPENDENT}; otherwise ") } else { String::new() };
+            format!(
+                "the stiffness against a motion cannot be told from the rounding of K: {}: {otherwise}support the \
+                 motion, or hold it by springs that are not so soft beside K",
+                moves(&x)
+            )
+        }
     }
 }
 

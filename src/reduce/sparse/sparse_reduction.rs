@@ -15,7 +15,7 @@ use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, StiffnessOperator};
 use crate::reduce::equations::Dependents;
 use crate::reduce::memory::memory;
-use crate::reduce::{ContactPairs, HostLoad, MatrixFreeReduction, Reduction, SolvedCase, motion};
+use crate::reduce::{ContactPairs, HostLoad, Reduction, SolvedCase, motion};
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
 pub struct SparseReduction {
@@ -46,25 +46,9 @@ impl SparseReduction {
     ///
     /// # Errors
     /// Arrays that are wrong, by entry; a pair that nothing can move; a motion that neither
-    /// supports nor pairs hold, by degrees of freedom that move in it.
+    /// supports nor pairs hold, by degrees of freedom that move in it; an order that is no permutation; and what
+    /// `control.ask` answers.
     pub fn new(
-        matrix: &SparseMatrix<'_>,
-        fixed: &[usize],
-        pairs: &ContactPairs<'_>,
-    ) -> Result<Self, Error> {
-        Self::controlled(
-            matrix,
-            fixed,
-            pairs,
-            Control { order: None, full_space: false, reserve: |_| true, ask: &mut |_, _| Ok(()) },
-        )
-    }
-
-    /// As [`Self::new`], in an order of the host; `control.ask` says whether to go on.
-    ///
-    /// # Errors
-    /// As [`Self::new`]; an order that is no permutation; and what `control.ask` answers.
-    pub fn controlled(
         matrix: &SparseMatrix<'_>,
         fixed: &[usize],
         pairs: &ContactPairs<'_>,
@@ -138,8 +122,20 @@ impl Reduction for SparseReduction {
         }
     }
 
-    fn matrix_free(&self) -> Option<&dyn MatrixFreeReduction> {
-        matches!(self.engine, Engine::FullSpace(_)).then_some(self as &dyn MatrixFreeReduction)
+    fn inner_unknowns(&self) -> Option<usize> {
+        self.engine.full_space().map(|_| self.variables.free.len())
+    }
+
+    fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
+        self.engine.full_space().map(|space| Box::new(space.in_use()) as Box<_>)
+    }
+
+    fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
+        self.transformed_load(load, prescribed)
+    }
+
+    fn factor_bytes(&self) -> u64 {
+        self.engine.full_space().map_or(0, FullSpace::factor_bytes)
     }
 
     fn host_size(&self) -> usize {
@@ -224,26 +220,6 @@ impl Reduction for SparseReduction {
     }
 }
 
-impl MatrixFreeReduction for SparseReduction {
-    fn bodies(&self) -> Box<dyn StiffnessOperator + '_> {
-        match &self.engine {
-            Engine::FullSpace(space) => Box::new(space.in_use()),
-            Engine::Condensed(_) => unreachable!("a condensed stiffness is formed"),
-        }
-    }
-
-    fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
-        self.transformed_load(load, prescribed)
-    }
-
-    fn factor_bytes(&self) -> u64 {
-        match &self.engine {
-            Engine::FullSpace(space) => space.factor_bytes(),
-            Engine::Condensed(_) => 0,
-        }
-    }
-}
-
 /// How the transformed matrix is divided and eliminated, by whom, and with whose memory.
 struct Parts<'a> {
     /// Number of unknowns that are no relative displacements.
@@ -257,6 +233,13 @@ struct Parts<'a> {
 }
 
 impl Engine {
+    fn full_space(&self) -> Option<&FullSpace> {
+        match self {
+            Engine::Condensed(_) => None,
+            Engine::FullSpace(space) => Some(space),
+        }
+    }
+
     /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix needs more
     /// memory than is allowed or than the system has, and it is `possible`.
     fn new(
@@ -293,14 +276,9 @@ impl Engine {
 
 /// Why the factorisation failed, in degrees of freedom of the host; `own`: each pair has a slave of its own.
 fn refused(variables: &ChangeOfVariables, own: bool, failure: Failure) -> Error {
+    if let Failure::OutOfMemory = failure {
+        return Error::OutOfMemory("the factor of the stiffness matrix");
+    }
     let host = |x: &[f64]| variables.host_displacements(x, None);
-    let message = match failure {
-        Failure::OutOfMemory => return Error::OutOfMemory("the factor of the stiffness matrix"),
-        Failure::Stopped => unreachable!("who stops it says why"),
-        Failure::Indefinite(row) => messages::indefinite(variables.free.get(row)),
-        Failure::Negative(x) => messages::negative_energy(&host(&x)),
-        Failure::Unclear(x) => messages::unclear_motion(&host(&x), !own),
-        Failure::NullVector(x) => messages::free_motion(&host(&x)),
-    };
-    Error::invalid(Argument::Matrix, message)
+    Error::invalid(Argument::Matrix, messages::failure(failure, &variables.free, host, !own))
 }
