@@ -1,5 +1,5 @@
 //! Islands: the pairs of a sparse matrix in groups that no entry ties to each other, connected components of its
-//! graph over the pairs.
+//! graph over the pairs; or other things that are tied to each other.
 
 use std::ops::Range;
 

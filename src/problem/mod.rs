@@ -33,6 +33,7 @@ pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};
 pub use flexibility_form::FlexibilityForm;
 pub(crate) use free_block::{FreeBlock, SOLUTIONS};
 pub use friction_law::FrictionLaw;
+pub(crate) use islands::Islands;
 pub(crate) use iterated::iterated;
 pub(crate) use law_table::FLATTEST;
 pub use law_table::{Law, Parameter};

@@ -5,55 +5,28 @@
 //! least: `dx = Sᵀ (S Sᵀ)⁻¹ (-g)`. As the rows of the moved nodes differ in second order alone, once is enough in the mean;
 //! a second time, with new pairs, leaves a tenth to the largest of quadratic faces.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 use super::pairs::{SurfacePair, SurfacePairs, Weight, without_rounding};
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::conjugate_gradients::conjugate_gradients;
+use crate::linalg::sparse_matrix::{Csc, from_entries, times, transpose_times};
 use crate::linalg::vector3::{Vector3, vector};
 use crate::monitor::Monitor;
 
-/// The slave's weights of the rows along an axis, with columns counted anew.
-struct Weights {
-    rows: Vec<Vec<Weight>>,
-    nodes: Vec<usize>,
-}
-
-impl Weights {
-    fn new(pairs: &[&SurfacePair], axis: usize) -> Weights {
-        let held: Vec<usize> =
-            pairs.iter().filter(|pair| pair.held[axis]).map(|pair| pair.slave).collect();
-        let (mut columns, mut nodes) = (HashMap::new(), Vec::new());
-        let mut column = |node: usize| {
-            *columns.entry(node).or_insert_with(|| {
-                nodes.push(node);
-                nodes.len() - 1
-            })
-        };
-        let mut row = |pair: &&SurfacePair| -> Vec<Weight> {
-            let moves = pair
-                .slaves()
-                .iter()
-                .filter(|(node, _)| !pair.held[axis] && held.binary_search(node).is_err());
-            moves.map(|&(node, weight)| (column(node), weight)).collect()
-        };
-        let rows = pairs.iter().map(&mut row).collect();
-        Weights { rows, nodes }
-    }
-
-    fn times(&self, x: &[f64]) -> Vec<f64> {
-        let sum = |row: &Vec<Weight>| row.iter().map(|&(k, weight)| weight * x[k]).sum();
-        self.rows.iter().map(sum).collect()
-    }
-
-    fn transpose_times(&self, y: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; self.nodes.len()];
-        for (row, y) in self.rows.iter().zip(y) {
-            row.iter().for_each(|&(k, weight)| x[k] += weight * y);
-        }
-        x
-    }
+/// `Sᵀ` along an axis: a column for each pair, a row for each of some nodes, those that are held apart.
+fn slave_weights(pairs: &[&SurfacePair], nodes: &[usize], axis: usize) -> Result<Csc, Error> {
+    let is_held = |pair: &&&SurfacePair| pair.held[axis];
+    let held: HashSet<usize> = pairs.iter().filter(is_held).map(|pair| pair.slave).collect();
+    let moves = |(node, _): &&Weight| !held.contains(node);
+    let free = pairs.iter().enumerate().filter(|(_, pair)| !pair.held[axis]);
+    let entries = free.flat_map(|(k, pair)| {
+        let weights = pair.slaves().iter().filter(moves);
+        weights.map(move |&(node, weight)| (nodes.partition_point(|n| *n < node), k, weight))
+    });
+    from_entries((nodes.len(), pairs.len()), entries)
+        .map_err(|_| Error::OutOfMemory("the rows of the pairs"))
 }
 
 /// Where a master moves too, as in zones that are joined in a row, its slave misses it.
@@ -94,7 +67,7 @@ impl SurfacePairs {
             let message = format!("within is {within}, it must not be negative");
             return Err(Error::invalid(Argument::Settings, message));
         }
-        let named = self.pairs.iter().flat_map(|pair| &pair.nodes.weights);
+        let named = self.pairs.iter().flat_map(|pair| &pair.nodes);
         let least = named.map(|(node, _)| dim * (node + 1)).max().unwrap_or(0);
         if coordinates.len() < least {
             let message =
@@ -115,16 +88,19 @@ impl SurfacePairs {
         let (pairs, apart): (Vec<&SurfacePair>, Vec<Vector3>) =
             all.filter(|(_, apart)| apart.norm() <= within).unzip();
         let mut moves: Vec<(usize, f64)> = Vec::new();
+        let slaves = pairs.iter().flat_map(|pair| pair.slaves());
+        let nodes: BTreeSet<usize> = slaves.map(|(node, _)| *node).collect();
+        let nodes: Vec<usize> = nodes.into_iter().collect();
         for axis in 0..dim {
-            let weights = Weights::new(&pairs, axis);
+            let weights = slave_weights(&pairs, &nodes, axis)?;
             let free = |(pair, apart): (&&SurfacePair, &Vector3)| {
                 if pair.held[axis] { 0.0 } else { -apart[axis] }
             };
             let wanted: Vec<f64> = pairs.iter().zip(&apart).map(free).collect();
-            let times = |y: &[f64]| weights.times(&weights.transpose_times(y));
-            let shares = conjugate_gradients(times, &wanted, || watch.goes_on())?;
-            let moved = weights.transpose_times(&shares);
-            moves.extend(weights.nodes.iter().map(|node| dim * node + axis).zip(moved));
+            let squared = |y: &[f64]| transpose_times(&weights, &times(&weights, y));
+            let shares = conjugate_gradients(squared, &wanted, || watch.goes_on())?;
+            let places = nodes.iter().map(|node| dim * node + axis);
+            moves.extend(places.zip(times(&weights, &shares)));
         }
         masters_stay(&pairs, dim, &moves)?;
         moves.into_iter().for_each(|(entry, moved)| coordinates[entry] += moved);

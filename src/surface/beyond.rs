@@ -1,10 +1,9 @@
 //! Slave faces that lie over nothing within the search distance, and point at a master beyond it.
 
-use super::candidates::{Candidates, middle_normal};
+use super::candidates::Candidates;
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
 use super::pairs::SurfaceReport;
-use super::plane::Plane;
 use super::watch::Watch;
 use crate::error::Error;
 
@@ -16,7 +15,6 @@ impl Candidates<'_> {
     pub(super) fn look_beyond(
         mut self,
         [slave, master]: [&Side<'_>; 2],
-        dim: usize,
         report: &mut SurfaceReport,
         watch: &mut Watch<'_, '_>,
     ) -> Result<(), Error> {
@@ -27,9 +25,8 @@ impl Candidates<'_> {
         for &at in &report.uncovered_faces {
             watch.goes_on()?;
             let (face, mut nearest) = (slave.face(at), f64::INFINITY);
-            let normal = middle_normal(&face);
-            let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
-            let in_plane = SlaveFace::new(&face, plane);
+            let normal = face.middle_normal();
+            let in_plane = SlaveFace::new(&face, normal);
             for &opposite in self.of_face(&face, normal) {
                 let part =
                     in_plane.overlap(&master.face(opposite), |away| away > from, &mut overlaps);

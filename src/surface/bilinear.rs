@@ -67,13 +67,8 @@ impl Bilinear {
         (at[0].is_finite() && at[1].is_finite()).then_some(at)
     }
 
-    /// The height above the plane.
-    pub(super) fn height(&self, [s, t]: Local) -> f64 {
-        let [c0, c1, c2, c3] = self.x[2];
-        c0 + c1 * s + (c2 + c3 * s) * t
-    }
-
     /// The place, and derivatives by the local coordinates.
+    #[inline]
     pub(super) fn at(&self, [s, t]: Local) -> [Vector3; 3] {
         let place = self.x.map(|[c0, c1, c2, c3]| c0 + c1 * s + (c2 + c3 * s) * t);
         let along = self.x.map(|[_, c1, _, c3]| c1 + c3 * t);

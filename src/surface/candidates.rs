@@ -54,7 +54,7 @@ impl<'a> SearchFaces<'a> {
         let mut normals = Vec::with_capacity(side.count());
         for face in 0..side.count() {
             watch.goes_on()?;
-            normals.push(middle_normal(&side.face(face)));
+            normals.push(side.face(face).middle_normal());
         }
         Ok(SearchFaces { tree: Tree::new(side), normals })
     }
@@ -71,11 +71,6 @@ pub(super) struct Candidates<'a> {
     pub(super) searched: usize,
     /// Faces near whose normals do not oppose.
     pub(super) not_opposed: usize,
-}
-
-/// Unit normal in the middle of a face, which has one as faces without area are refused.
-pub(super) fn middle_normal(face: &Face<'_>) -> Vector3 {
-    face.middle_normal().unwrap_or_default()
 }
 
 impl<'a> Candidates<'a> {

@@ -119,12 +119,8 @@ impl Curved {
         None
     }
 
-    /// The height above the plane.
-    pub(super) fn height(&self, at: Local) -> f64 {
-        evaluate(&self.x[2], at)[0]
-    }
-
     /// The place, and derivatives by the local coordinates.
+    #[inline]
     pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
         let [x, y, z] = &self.x;
         let [x, y, z] = [evaluate(x, at), evaluate(y, at), evaluate(z, at)];

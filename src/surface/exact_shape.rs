@@ -122,34 +122,28 @@ impl Obstacle {
             true => Ok(scale * Vector3::from(x)),
             false => Err("its point is not finite".to_string()),
         };
-        let hollow = match *self {
-            Obstacle::Plane { .. } => false,
-            Obstacle::Sphere { hollow, .. }
-            | Obstacle::Cylinder { hollow, .. }
-            | Obstacle::Cone { hollow, .. }
-            | Obstacle::Torus { hollow, .. } => hollow,
-        };
-        let form = match *self {
+        let (form, hollow) = match *self {
             Obstacle::Plane { point: at, outward } => {
                 let outward = direction("outward direction", outward)?;
-                Form::Plane { point: point(at)?, outward }
+                (Form::Plane { point: point(at)?, outward }, false)
             }
-            Obstacle::Sphere { centre, radius, .. } => {
+            Obstacle::Sphere { centre, radius, hollow } => {
                 let radius = scale * positive("radius", radius)?;
-                Form::Round { point: point(centre)?, axis: Vector3::zeros(), radius }
+                (Form::Round { point: point(centre)?, axis: Vector3::zeros(), radius }, hollow)
             }
-            Obstacle::Cylinder { point: at, axis, radius, .. } => {
+            Obstacle::Cylinder { point: at, axis, radius, hollow } => {
                 let axis = direction("axis", axis)?;
                 let radius = scale * positive("radius", radius)?;
-                Form::Round { point: point(at)?, axis, radius }
+                (Form::Round { point: point(at)?, axis, radius }, hollow)
             }
-            Obstacle::Cone { point: at, to_apex, radius, .. } => {
+            Obstacle::Cone { point: at, to_apex, radius, hollow } => {
                 let axis = -direction("direction to the apex", to_apex)?;
                 let (height, radius) = (Vector3::from(to_apex).norm(), positive("radius", radius)?);
                 let cos_sin = [height, radius].map(|side| side / height.hypot(radius));
-                Form::Cone { apex: point(at)? + scale * Vector3::from(to_apex), axis, cos_sin }
+                let apex = point(at)? + scale * Vector3::from(to_apex);
+                (Form::Cone { apex, axis, cos_sin }, hollow)
             }
-            Obstacle::Torus { centre, axis, radius, ring, .. } => {
+            Obstacle::Torus { centre, axis, radius, ring, hollow } => {
                 let axis = direction("axis", axis)?;
                 let (radius, ring) = (positive("radius", radius)?, positive("ring", ring)?);
                 if radius >= ring {
@@ -158,7 +152,7 @@ impl Obstacle {
                     ));
                 }
                 let (radius, ring) = (scale * radius, scale * ring);
-                Form::Torus { centre: point(centre)?, axis, radius, ring }
+                (Form::Torus { centre: point(centre)?, axis, radius, ring }, hollow)
             }
         };
         Ok(ExactShape { form, sign: if hollow { -1.0 } else { 1.0 } })

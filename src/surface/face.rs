@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::quadrature::{self, RulePoint};
+use super::quadrature;
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -12,9 +12,6 @@ pub(super) const ON_EDGE: f64 = 1e-11;
 
 /// Points of the rule for areas along each direction: exact for flat faces of every kind.
 const AREA_POINTS: usize = 4;
-
-/// The rule across a line, whose second coordinate is zero: the half of a unit.
-const MIDDLE: [RulePoint; 1] = [([0.5, 0.5, 0.0], 0.5)];
 
 /// A face with the coordinates of its nodes.
 #[derive(Clone, Debug)]
@@ -59,9 +56,14 @@ impl Face<'_> {
         first.cross(&second)
     }
 
-    /// The unit normal in the middle.
-    pub(super) fn middle_normal(&self) -> Option<Vector3> {
-        unit(self.outward(self.kind.centre()))
+    /// The outward unit normal; zero where the face has no area.
+    pub(super) fn normal(&self, at: Local) -> Vector3 {
+        unit(self.outward(at)).unwrap_or_default()
+    }
+
+    /// The outward unit normal in the middle.
+    pub(super) fn middle_normal(&self) -> Vector3 {
+        self.normal(self.kind.centre())
     }
 
     /// The longest distance of a node from the first one: a length that bounds the face.
@@ -73,24 +75,12 @@ impl Face<'_> {
     /// Integrals of the shape functions over the whole face; their sum is its area.
     pub(super) fn integrals(&self) -> Values {
         let mut integrals = [0.0; MOST_NODES];
-        let mut add = |at: Local, weight: f64| {
+        let corners = &self.kind.places()[..self.kind.corners()];
+        quadrature::points(corners, AREA_POINTS).for_each(|(at, weight)| {
             let area = weight * self.outward(at).norm() * self.around(at);
             let values = self.kind.values(at);
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
-        };
-        let line = quadrature::on_interval(AREA_POINTS);
-        if self.kind.is_triangle() {
-            let triangle = quadrature::on_triangle(AREA_POINTS);
-            triangle.iter().for_each(|([_, s, t], w)| add([*s, *t], 0.5 * w));
-            return integrals;
-        }
-        // Across a line there is one place, its middle.
-        let across = if self.kind.is_line() { &MIDDLE[..] } else { line };
-        for ([_, s, _], v) in line {
-            for ([_, t, _], w) in across {
-                add([2.0 * s - 1.0, 2.0 * t - 1.0], 4.0 * v * w);
-            }
-        }
+        });
         integrals
     }
 

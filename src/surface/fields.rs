@@ -7,6 +7,7 @@
 //! traction and slip are turned about, as they act on and move the other body.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::pairs::{SurfacePair, SurfacePairs};
 use crate::error::{Argument, Error};
@@ -133,13 +134,26 @@ impl SurfacePairs {
     /// # Errors
     /// As [`Self::fields`]; [`Argument::Coordinates`] for the point.
     pub fn resultant(&self, results: &PairResults<'_>, point: &[f64]) -> Result<Resultant, Error> {
+        self.resultant_of(0..self.pairs.len(), results, point)
+    }
+
+    /// The resultant of some pairs.
+    ///
+    /// # Errors
+    /// As [`Self::resultant`].
+    pub(super) fn resultant_of(
+        &self,
+        pairs: Range<usize>,
+        results: &PairResults<'_>,
+        point: &[f64],
+    ) -> Result<Resultant, Error> {
         self.check(results)?;
         let dim = self.dim;
         check_length(Argument::Coordinates, "point", point.len(), dim)?;
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
-        for (j, pair) in self.pairs.iter().enumerate() {
+        for (j, pair) in pairs.clone().zip(&self.pairs[pairs]) {
             let of_pair = &results.force[dim * j..dim * (j + 1)];
             let acting = pair.to_host(of_pair[0], &of_pair[1..]);
             force += acting;

@@ -18,6 +18,7 @@ use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::least_squares::least_squares;
 use crate::linalg::vector3::{Vector3, axis, unit};
+use crate::problem::Islands;
 
 /// Neighbours are parts of one smooth surface if the cosine between their normals is above this: 35 degrees, as 13
 /// divisions of a circle whose nodes are shifted by a fifth have them.
@@ -82,38 +83,30 @@ fn on_lines(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     Ok((0..side.count()).map(normals).collect())
 }
 
-/// The smooth surface that each face is a part of, by its first face.
+/// The smooth surface that each face is a part of, by number.
 fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<usize>, Error> {
-    let mut first: Vec<usize> = (0..side.count()).collect();
-    let root = |first: &[usize], mut face: usize| {
-        while first[face] != face {
-            face = first[face];
-        }
-        face
-    };
     let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
+    let mut smooth = Vec::new();
     for at in 0..side.count() {
         watch.goes_on()?;
         let face = side.face(at);
         let corners = face.kind.corners();
-        let normal = |i: usize| unit(face.outward(face.kind.places()[i])).unwrap_or_default();
         for i in 0..corners {
-            let ends = [i, (i + 1) % corners];
-            let [a, b] = ends.map(|i| face.nodes[i]);
-            let [at_a, at_b] = ends.map(normal);
-            let (key, normals) =
-                if a < b { ([a, b], [at_a, at_b]) } else { ([b, a], [at_b, at_a]) };
-            let Some((other, others)) = edges.insert(key, (at, normals)) else { continue };
+            let mut ends = [i, (i + 1) % corners];
+            ends.sort_unstable_by_key(|&i| face.nodes[i]);
+            let normals = ends.map(|i| face.normal(face.kind.places()[i]));
+            let edge = edges.insert(ends.map(|i| face.nodes[i]), (at, normals));
+            let Some((other, others)) = edge else { continue };
             if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
-                let [a, b] = [root(&first, at), root(&first, other)];
-                first[a.max(b)] = a.min(b);
+                smooth.push((at, other));
             }
         }
     }
-    for face in 0..first.len() {
-        first[face] = first[first[face]];
+    let mut surface = vec![0; side.count()];
+    for (number, faces) in Islands::new(side.count(), smooth.into_iter()).each().enumerate() {
+        faces.iter().for_each(|&face| surface[face] = number);
     }
-    Ok(first)
+    Ok(surface)
 }
 
 fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
@@ -156,7 +149,7 @@ fn mean(side: &Side<'_>, faces: &[usize], node: usize) -> Vector3 {
     let normal = |&at: &usize| {
         let face = side.face(at);
         let place = face.nodes.iter().position(|&other| other == node).unwrap_or_default();
-        unit(face.outward(face.kind.places()[place])).unwrap_or_default()
+        face.normal(face.kind.places()[place])
     };
     let sum = faces.iter().map(normal).sum();
     direction(sum, faces.len() as f64).unwrap_or_else(|| normal(&faces[0]))

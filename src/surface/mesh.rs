@@ -1,4 +1,7 @@
-//! Two surfaces of a mesh: what the host hands over, and what is refused.
+//! Two surfaces of a mesh: what the host hands over, and what is refused, as faces for their shape, and neighbours of which one
+//! is turned over.
+
+use std::collections::HashMap;
 
 use super::face::Face;
 use super::pairs::Weight;
@@ -11,6 +14,10 @@ use crate::problem::checked_dim;
 /// A node is on a plane if it is nearer than this part of the size of its side: ten times the error of
 /// coordinates with seven digits.
 pub(super) const ON_PLANE: f64 = 1e-6;
+
+/// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
+/// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
+const LEAST_AREA: f64 = 1e-10;
 
 /// Faces as lists of nodes.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +54,7 @@ pub(super) struct Side<'a> {
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
     is_axisymmetric: bool,
-    /// Coordinates are multiplied by this power of two, so that they are below 1 whatever the host's unit is.
+    /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,
 }
 
@@ -78,11 +85,6 @@ impl<'a> Side<'a> {
     /// Place of a node, in the unit of the pairing.
     pub(super) fn position(&self, node: usize) -> Vector3 {
         self.scale * vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
-    }
-
-    /// A length of the host in the unit of the pairing.
-    pub(super) fn inside(&self, length: f64) -> f64 {
-        self.scale * length
     }
 
     /// The host's coordinates of all nodes of faces.
@@ -231,6 +233,66 @@ impl<'a> Side<'a> {
                     index(face)
                 );
                 return Err(Error::invalid(self.of_coordinates(), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a face without area, and one that turns over in itself.
+    fn check_shape(&self, at: usize) -> Result<(), Error> {
+        let face = self.face(at);
+        let size = face.size();
+        let inner = |&&node: &&usize| self.position(node).x < -ON_PLANE * size;
+        if let Some(&node) = face.nodes.iter().find(inner).filter(|_| face.is_ring) {
+            let radius = self.coordinates[self.dim * node];
+            let what =
+                format!("has node {} at the radius {radius}, beyond the axis x = 0", index(node));
+            return Err(self.refuse(at, &what));
+        }
+        let least = LEAST_AREA * if self.dim == 2 { size } else { size * size };
+        let middle = face.outward(face.kind.centre());
+        // Written so that zero and NaN are refused.
+        if !(middle.norm() > least) {
+            return Err(self.refuse(at, "has no area: its nodes coincide or stand in one line"));
+        }
+        for (i, &place) in face.kind.places().iter().enumerate() {
+            let normal = face.outward(place);
+            if !(normal.norm() > least && normal.dot(&middle) > 0.0) {
+                let what = format!(
+                    "is folded at node {}: check the order of its nodes, the number from which \
+                     they count, and that corners are convex and mid nodes near the middle of their edges",
+                    index(face.nodes[i])
+                );
+                return Err(self.refuse(at, &what));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses neighbours that run along their common edge in the same direction.
+    fn check_orientation(&self, watch: &mut Watch<'_, '_>) -> Result<(), Error> {
+        let mut seen: HashMap<(usize, usize), usize> =
+            HashMap::with_capacity(self.faces.nodes.len());
+        for face in 0..self.count() {
+            watch.goes_on()?;
+            let corners = self.corners(face);
+            for (i, &a) in corners.iter().enumerate() {
+                let b = corners[(i + 1) % corners.len()];
+                // On a line the node and its end: 0 if it begins there, 1 if it ends there.
+                let key = if self.dim == 2 { (a, i) } else { (a, b) };
+                if let Some(other) = seen.insert(key, face) {
+                    let where_ = if self.dim == 2 {
+                        format!("node {}", index(a))
+                    } else {
+                        format!("the edge of nodes {} and {}", index(a), index(b))
+                    };
+                    let what = format!(
+                        "and face {} disagree at {where_}: one of them is turned over, or they lie \
+                         upon each other; turn the order of its nodes, or leave it out",
+                        index(other)
+                    );
+                    return Err(self.refuse(face, &what));
+                }
             }
         }
         Ok(())

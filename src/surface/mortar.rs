@@ -9,14 +9,14 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::{Candidates, SAME_WAY, middle_normal};
+use super::assembly::{pair_of_row, pairs_of_rows};
+use super::candidates::{Candidates, SAME_WAY};
 use super::control::Edges;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
-use super::plane::Plane;
+use super::pairs::{SurfacePairs, SurfaceReport};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
@@ -27,14 +27,14 @@ use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
 
-/// A slave face that lies over master faces.
-struct CoveredFace {
-    covered: Covered,
-    wholly: bool,
-}
+/// What a slave face has over master faces, if it lies over any, and `true` if it has the functions of a face that is
+/// covered wholly.
+type Cover = (Option<Covered>, bool);
 
-/// The memory that the search uses from face to face.
+/// The search for what lies over slave faces, with the memory that it uses from face to face.
 struct Search<'a> {
+    sides: [&'a Side<'a>; 2],
+    planes: &'a OnPlanes,
     candidates: Candidates<'a>,
     shapes: Option<TrueSides<'a>>,
     overlaps: Overlaps,
@@ -47,64 +47,46 @@ struct Search<'a> {
 /// Master faces that lie over each other; faces that are turned over in the projection; normals that
 /// cancel at a slave node, or that are across a plane of symmetry.
 pub(super) fn pairs<'a>(
-    [slave, master]: [&'a Side<'a>; 2],
-    dim: usize,
-    planes: &OnPlanes,
+    sides: [&'a Side<'a>; 2],
+    planes: &'a OnPlanes,
     candidates: Candidates<'a>,
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let mut report = SurfaceReport {
-        search_distance: candidates.reach.open,
-        slave_faces: slave.count(),
-        ..SurfaceReport::default()
-    };
+    let [slave, _] = sides;
+    let mut report = SurfaceReport::new(slave.count(), candidates.reach.open);
+    let shapes = TrueSides::new(sides, &settings.shapes, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
-    let SurfaceSettings { normals, rims, .. } = *settings;
-    let shapes = TrueSides::new([slave, master], dim, &settings.shapes, watch)?;
-    let mut search = Search { candidates, shapes, overlaps, polynomials };
+    let mut search = Search { sides, planes, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
         watch.step()?;
-        let face = slave.face(at);
-        let covered = cover([slave, master], (at, &face), (dim, planes), &mut search, watch)?;
-        if covered.is_none() {
+        let cover = search.cover(at, &slave.face(at), watch)?;
+        if cover.0.is_none() {
             report.uncovered_faces.push(at);
         }
-        faces.push(covered);
+        faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
-    candidates.look_beyond([slave, master], dim, &mut report, watch)?;
+    candidates.look_beyond(sides, &mut report, watch)?;
     let mut rows = rows(slave, faces, planes, (&mut report, watch))?;
-    if normals == Normals::Averaged {
-        let averaged = slave.node_normals_on(planes, watch)?;
+    if settings.normals == Normals::Averaged {
+        let averaged = slave.node_normals(planes, watch)?;
         for (node, row) in &mut rows {
             watch.goes_on()?;
             row.normal = row.area * averaged[node];
         }
     }
-    report.folded = rims::fold(rims, &mut rows, (slave, dim, planes), watch)?;
-    let pairs: Vec<SurfacePair> = rows
-        .into_iter()
-        .map(|(node, row)| {
-            watch.goes_on()?;
-            let (area, gap) = (row.area, row.gap / row.area);
-            let normal = planes.turned(node, mean_normal(node, &row)?);
-            let nodes = row.into_nodes();
-            let points = (slave.point(nodes.slaves()), Some(master.point(nodes.masters())));
-            let pair = SurfacePair::new(dim, (node, area), nodes, normal, points);
-            planes.hold(match &shapes {
-                Some(shapes) => pair.with_gap(gap, shapes.size()),
-                None => pair,
-            })
+    report.folded = rims::fold(settings.rims, &mut rows, (slave, planes), watch)?;
+    let pair = |node, row: Row| {
+        let (gap, normal) = (row.gap / row.area, mean_normal(node, &row)?);
+        let pair = pair_of_row(sides, planes, (node, row), normal)?;
+        Ok(match &shapes {
+            Some(shapes) => pair.with_gap(gap, shapes.size()),
+            None => pair,
         })
-        .collect::<Result<_, Error>>()?;
-    report.covered_area = pairs.iter().map(|pair| pair.area).sum();
-    let mut unpaired = slave.all_nodes();
-    watch.goes_on()?;
-    let mut next = pairs.iter().peekable();
-    unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
-    Ok(SurfacePairs { dim, pairs, unpaired, report, ..SurfacePairs::default() })
+    };
+    pairs_of_rows(slave, rows, report, pair, watch)
 }
 
 /// The normal of a row: the mean over what it covers, with the rows that it has taken in.
@@ -115,65 +97,61 @@ fn mean_normal(node: usize, row: &Row) -> Result<Vector3, Error> {
     })
 }
 
-/// The part of the master that a slave face lies over.
-fn cover(
-    [slave, master]: [&Side<'_>; 2],
-    (at, face): (usize, &Face<'_>),
-    (dim, planes): (usize, &OnPlanes),
-    search: &mut Search<'_>,
-    watch: &mut Watch<'_, '_>,
-) -> Result<Option<CoveredFace>, Error> {
-    let normal = middle_normal(face);
-    let plane = Plane::new(dim, face.position(face.kind.centre()), normal);
-    let in_plane = SlaveFace::new(face, plane);
-    let Search { candidates, shapes, overlaps, polynomials } = search;
-    overlaps.points.clear();
-    let reach = candidates.reach;
-    let mut parts: Vec<Opposite<'_>> = Vec::new();
-    for &opposite in candidates.of_face(face, normal) {
-        watch.goes_on()?;
-        let other = master.face(opposite);
-        let before = overlaps.points.len();
-        let wanted = |distance| reach.holds(distance);
-        let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
-            let opposite = index(opposite);
-            let what = format!(
-                "cannot be projected on master face {opposite}: one of them is turned over or \
-                 strongly curved as seen along the slave's normal; refine there"
-            );
-            slave.refuse(at, &what)
-        })?;
-        let points = before..overlaps.points.len();
-        if !points.is_empty() {
-            parts.push(Opposite {
-                at: opposite,
-                kind: other.kind,
-                nodes: other.nodes,
-                points,
-                part,
-            });
+impl Search<'_> {
+    /// The part of the master that a slave face lies over.
+    fn cover(
+        &mut self,
+        at: usize,
+        face: &Face<'_>,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Cover, Error> {
+        let Search { sides: [slave, master], planes, candidates, shapes, overlaps, polynomials } =
+            self;
+        let normal = face.middle_normal();
+        let in_plane = SlaveFace::new(face, normal);
+        overlaps.points.clear();
+        let reach = candidates.reach;
+        let mut parts: Vec<Opposite<'_>> = Vec::new();
+        for &opposite in candidates.of_face(face, normal) {
+            watch.goes_on()?;
+            let other = master.face(opposite);
+            let before = overlaps.points.len();
+            let wanted = |distance| reach.holds(distance);
+            let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
+                let opposite = index(opposite);
+                let what = format!(
+                    "cannot be projected on master face {opposite}: one of them is turned over or \
+                     strongly curved as seen along the slave's normal; refine there"
+                );
+                slave.refuse(at, &what)
+            })?;
+            let points = before..overlaps.points.len();
+            if !points.is_empty() {
+                let (kind, nodes) = (other.kind, other.nodes);
+                parts.push(Opposite { at: opposite, kind, nodes, points, part });
+            }
         }
+        keep_nearest(&mut parts, &mut overlaps.points, reach.layer);
+        let is_off_axis = !planes.touch_axis(face);
+        if parts.is_empty() {
+            return Ok((None, is_off_axis));
+        }
+        let cover = parts.iter().map(|opposite| opposite.part.share).sum::<f64>();
+        if cover > 1.0 + SAME_COVER {
+            let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
+            let what = format!(
+                "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
+                 give a smaller search distance",
+                over.join(", ")
+            );
+            return Err(slave.refuse(at, &what));
+        }
+        let mut covered = polynomials.project(face.kind, &overlaps.points, &parts);
+        if let Some(shapes) = shapes {
+            covered.gaps = polynomials.fit(&shapes.gaps((at, face), &overlaps.points, &parts));
+        }
+        Ok((Some(covered), cover >= 1.0 - SAME_COVER && is_off_axis))
     }
-    keep_nearest(&mut parts, &mut overlaps.points, reach.layer);
-    if parts.is_empty() {
-        return Ok(None);
-    }
-    let cover = parts.iter().map(|opposite| opposite.part.share).sum::<f64>();
-    if cover > 1.0 + SAME_COVER {
-        let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
-        let what = format!(
-            "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
-             give a smaller search distance",
-            over.join(", ")
-        );
-        return Err(slave.refuse(at, &what));
-    }
-    let mut covered = polynomials.project(face.kind, &overlaps.points, &parts);
-    if let Some(shapes) = shapes {
-        covered.gaps = polynomials.fit(&shapes.gaps((at, face), &overlaps.points, &parts));
-    }
-    let wholly = cover >= 1.0 - SAME_COVER && !planes.touch_axis(face);
-    Ok(Some(CoveredFace { covered, wholly }))
 }
 
 /// Leaves out the parts that are further away than the nearest one by more than a layer, with their points.
@@ -198,37 +176,35 @@ fn keep_nearest(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, layer:
 /// The rows of all nodes with cover, by node. The areas of all faces are added to those of the report.
 fn rows(
     slave: &Side<'_>,
-    faces: Vec<Option<CoveredFace>>,
+    faces: Vec<Cover>,
     planes: &OnPlanes,
     (report, watch): (&mut SurfaceReport, &mut Watch<'_, '_>),
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let mut edges = Edges::default();
-    for (at, covered) in faces.iter().enumerate() {
+    for (at, (_, wholly)) in faces.iter().enumerate() {
         watch.goes_on()?;
         let face = slave.face(at);
-        let wholly = covered.as_ref().map(|covered| covered.wholly);
-        let wholly = wholly.unwrap_or_else(|| !planes.touch_axis(&face));
-        edges.add(face.kind, face.nodes, wholly);
+        edges.add(face.kind, face.nodes, *wholly);
     }
     let slave_area = &mut report.slave_area;
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     // The memory of a face is given back once its rows have it.
-    for (at, covered) in faces.into_iter().enumerate() {
+    for (at, (covered, wholly)) in faces.into_iter().enumerate() {
         watch.goes_on()?;
-        if let Some(CoveredFace { covered, wholly }) = covered {
+        if let Some(covered) = covered {
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
             let integrals = [covered.integrals, face.integrals()];
             *slave_area += integrals[1].iter().sum::<f64>();
             let on = (face.nodes, &basis);
-            add_face(&mut rows, on, integrals, covered.weights(), (&at_nodes(&face), covered.gaps));
+            add_face(&mut rows, on, integrals, covered.weights(), (at_nodes(&face), covered.gaps));
         }
     }
     for &at in &report.uncovered_faces {
         watch.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, !planes.touch_axis(&face));
-        let (integrals, normal) = (face.integrals(), middle_normal(&face));
+        let (integrals, normal) = (face.integrals(), face.middle_normal());
         *slave_area += integrals.iter().sum::<f64>();
         let whole = basis.functions(integrals);
         for (node, whole) in face.nodes.iter().zip(whole) {

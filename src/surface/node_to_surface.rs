@@ -9,18 +9,18 @@
 
 use std::collections::BTreeMap;
 
+use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::{BEYOND, Candidates};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::foot;
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight};
+use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::Row;
 use super::settings::Normals;
 use super::shape::{FaceKind, Local};
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
-use super::whole_faces::paired;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -63,10 +63,10 @@ fn nearest(meetings: impl Iterator<Item = MasterPoint>) -> Option<MasterPoint> {
 fn meets(
     master: &Side<'_>,
     (x, averaged): (Vector3, Vector3),
-    (dim, normals): (usize, Normals),
+    normals: Normals,
     candidates: &mut Candidates<'_>,
 ) -> Option<MasterPoint> {
-    let plane = Plane::new(dim, x, averaged);
+    let plane = Plane::new(master.dim, x, averaged);
     let reach = candidates.reach;
     let found = candidates.of_point(x, averaged);
     let faces = || found.iter().map(|&at| master.face(at));
@@ -85,7 +85,7 @@ fn meets(
     // On the face that the ray meets it is no further; another one further away is no neighbour.
     let nearer = |distance: f64| distance <= (1.0 + BEYOND) * along_ray.distance;
     let perpendicular = faces().filter_map(|face| {
-        let (at, outward) = foot(&face, x, dim)?;
+        let (at, outward) = foot(&face, x)?;
         MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
     });
     Some(nearest(perpendicular).unwrap_or(along_ray))
@@ -96,51 +96,41 @@ fn meets(
 /// # Errors
 /// Normals that cancel at a slave node, or that are across a plane of symmetry.
 pub(super) fn pairs(
-    [slave, master]: [&Side<'_>; 2],
-    dim: usize,
+    sides: [&Side<'_>; 2],
     planes: &OnPlanes,
     mut candidates: Candidates<'_>,
     normals: Normals,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let averaged = slave.node_normals_on(planes, watch)?;
+    let [slave, master] = sides;
+    let averaged = slave.node_normals(planes, watch)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
         watch.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
-        if let Some(meeting) = meets(master, ray, (dim, normals), &mut candidates) {
+        if let Some(meeting) = meets(master, ray, normals, &mut candidates) {
             met.insert(node, meeting);
         }
     }
-    let report = SurfaceReport {
-        search_distance: candidates.reach.open,
-        slave_faces: slave.count(),
-        ..SurfaceReport::default()
-    };
-    let meets = |node: usize| met.contains_key(&node);
+    let mut report = SurfaceReport::new(slave.count(), candidates.reach.open);
+    let rows = whole_rows(|node| met.contains_key(&node), (slave, planes), &mut report, watch)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
         for (slave, part) in slaves {
-            row.add_masters(
-                met[&slave].weights.iter().map(|(node, weight)| (*node, part * weight)),
-            );
+            let masters = met[&slave].weights.iter();
+            row.add_masters(masters.map(|(node, weight)| (*node, part * weight)));
         }
-        let area = row.area;
-        let nodes = row.into_nodes();
-        let points = (slave.point(nodes.slaves()), Some(master.point(nodes.masters())));
-        let normal = planes.turned(node, met[&node].normal);
-        planes.hold(SurfacePair::new(dim, (node, area), nodes, normal, points))
+        pair_of_row(sides, planes, (node, row), met[&node].normal)
     };
-    let mut found = paired((slave, dim, planes), report, meets, pair, watch)?;
-    let meets = |node: &usize| met.contains_key(node);
+    let mut found = pairs_of_rows(slave, rows, report, pair, watch)?;
     for at in 0..slave.count() {
         watch.goes_on()?;
-        if !slave.face(at).nodes.iter().any(meets) {
+        if !slave.face(at).nodes.iter().any(|node| met.contains_key(node)) {
             found.report.uncovered_faces.push(at);
         }
     }
     // Their memory is given back between questions.
     met.into_iter().try_for_each(|_| watch.goes_on())?;
-    candidates.look_beyond([slave, master], dim, &mut found.report, watch)?;
+    candidates.look_beyond(sides, &mut found.report, watch)?;
     Ok(found)
 }

@@ -1,13 +1,8 @@
 //! Normals of faces, where a pair has those and not the mean at its slave node.
 
-use std::collections::HashMap;
-
 use super::face::Face;
-use super::mesh::Side;
 use super::plane::Plane;
 use super::shape::{Local, MOST_NODES};
-use super::watch::Watch;
-use crate::error::{Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
 /// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
@@ -19,13 +14,13 @@ const LAST: f64 = 1e-14;
 
 /// A sum of unit normals this small beside their number or area, or the rest of one that lies across a plane, has no
 /// direction of its own.
-pub(super) const LEAST_NORMAL: f64 = 1e-6;
+const LEAST_NORMAL: f64 = 1e-6;
 
 /// Unit normals of a face at its nodes.
 pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {
     let mut normals = [Vector3::zeros(); MOST_NODES];
     for (normal, &place) in normals.iter_mut().zip(face.kind.places()) {
-        *normal = unit(face.outward(place)).unwrap_or_default();
+        *normal = face.normal(place);
     }
     normals
 }
@@ -35,42 +30,12 @@ pub(super) fn direction(sum: Vector3, area: f64) -> Option<Vector3> {
     unit(sum).filter(|_| sum.norm() > LEAST_NORMAL * area)
 }
 
-impl Side<'_> {
-    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node.
-    ///
-    /// # Errors
-    /// A node whose faces' normals cancel; what ends the watch.
-    pub(super) fn node_normals(
-        &self,
-        watch: &mut Watch<'_, '_>,
-    ) -> Result<HashMap<usize, Vector3>, Error> {
-        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
-        for at in 0..self.count() {
-            watch.goes_on()?;
-            let face = self.face(at);
-            for (&node, &place) in face.nodes.iter().zip(face.kind.places()) {
-                let sum = sums.entry(node).or_insert((Vector3::zeros(), at));
-                sum.0 += unit(face.outward(place)).unwrap_or_default();
-            }
-        }
-        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
-            watch.goes_on()?;
-            let normal = unit(sum).filter(|_| sum.norm() > LEAST_NORMAL).ok_or_else(|| {
-                let what = format!("has node {}, where normals cancel", index(node));
-                self.refuse(face, &what)
-            });
-            normal.map(|normal| (node, normal))
-        };
-        sums.into_iter().map(normal).collect()
-    }
-}
-
 /// The point of a face, or of its continuation, from which the perpendicular leads to `x`: local coordinates
 /// and the face's unit normal there. `None` if steps along normals do not lead to one.
-pub(super) fn foot(face: &Face<'_>, x: Vector3, dim: usize) -> Option<(Local, Vector3)> {
-    let mut normal = face.middle_normal()?;
+pub(super) fn foot(face: &Face<'_>, x: Vector3) -> Option<(Local, Vector3)> {
+    let mut normal = face.middle_normal();
     for _ in 0..MOST_STEPS {
-        let at = Plane::new(dim, x, normal).flatten(face).local([0.0; 2])?;
+        let at = Plane::new(face.kind.dim(), x, normal).flatten(face).local([0.0; 2])?;
         let next = unit(face.outward(at))?;
         let change = (next - normal).norm();
         normal = next;

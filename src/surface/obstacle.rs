@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::{Faces, Side};
@@ -12,7 +13,6 @@ use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
-use super::whole_faces::paired;
 use crate::error::{Argument, Error, index};
 use crate::monitor::Monitor;
 
@@ -51,10 +51,10 @@ pub fn pair_with_obstacle(
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(dim, unit.inside).or_else(|message| refuse(&message))?;
     let side = side.checked((unit.inside, axisymmetric), watch)?;
-    let reach = side.inside(search_distance.unwrap_or(f64::INFINITY));
-    let planes = OnPlanes::new(&side, dim, (&settings.symmetry, axisymmetric))?;
+    let reach = side.scale * search_distance.unwrap_or(f64::INFINITY);
+    let planes = OnPlanes::new(&side, (&settings.symmetry, axisymmetric))?;
     watch.expects(side.count());
-    self_overlap::check(&side, &mut SearchFaces::new(&side, watch)?, (dim, reach), watch)?;
+    self_overlap::check(&side, &mut SearchFaces::new(&side, watch)?, reach, watch)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let Some(met) = obstacle.facing(side.position(node)) else {
@@ -65,26 +65,19 @@ pub fn pair_with_obstacle(
         };
         facing.insert(node, met);
     }
-    let report = SurfaceReport {
-        looking_away: looking_away(&side, &obstacle),
-        search_distance: reach,
-        slave_faces: side.count(),
-        ..SurfaceReport::default()
-    };
+    let mut report = SurfaceReport::new(side.count(), reach);
+    report.looking_away = looking_away(&side, &obstacle);
     let meets = |node: usize| facing[&node].0.abs() <= reach;
+    let rows = whole_rows(meets, (&side, &planes), &mut report, watch)?;
     let pair = |node, row: Row| {
-        let area = row.area;
-        let nodes = row.into_nodes();
-        let slaves = nodes.slaves();
+        let pair = pair_of_row([&side; 2], &planes, (node, row), facing[&node].1)?;
+        let slaves = pair.slaves().iter();
         let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
-        let gap = slaves.iter().map(|(node, weight)| weight * facing[node].0).sum();
-        let size = slaves.iter().map(|(node, weight)| weight.abs() * size(node)).sum();
-        let points = (side.point(slaves), None);
-        let normal = planes.turned(node, facing[&node].1);
-        let pair = SurfacePair::new(dim, (node, area), nodes, normal, points);
-        planes.hold(SurfacePair { gap: without_rounding(gap, size), ..pair })
+        let gap = slaves.clone().map(|(node, weight)| weight * facing[node].0).sum();
+        let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
+        Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    unit.of_host(paired((&side, dim, &planes), report, meets, pair, watch)?, settings)
+    unit.of_host(pairs_of_rows(&side, rows, report, pair, watch)?, settings)
 }
 
 /// Number of faces whose middles look away from a shape.

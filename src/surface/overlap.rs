@@ -5,10 +5,10 @@
 
 use super::clip::{Clipper, Point, measure, turn_left};
 use super::face::{Face, ON_EDGE};
-use super::plane::{Flat, MOST_SAG, Plane, Polygon};
-use super::quadrature::MOST_POINTS;
+use super::plane::{Flat, MOST_SAG, Plane, outline};
+use super::quadrature::{self, MOST_POINTS};
 use super::shape::Local;
-use super::simple_parts::Rule;
+use crate::linalg::vector3::Vector3;
 
 /// Parts smaller than this share of the slave face are left out on both sides: they are the rounding of
 /// edges that lie upon each other.
@@ -68,6 +68,8 @@ pub(super) struct Overlaps {
     pub(super) points: Vec<Meeting>,
     clipper: Clipper,
     near: Clipper,
+    /// A master's outline in the plane.
+    window: Vec<Point>,
     /// A master's outline in the local coordinates of a curved slave.
     mapped: Vec<Point>,
 }
@@ -77,16 +79,17 @@ pub(super) struct Overlaps {
 pub(super) struct NotFound;
 
 impl<'a> SlaveFace<'a> {
-    pub(super) fn new(face: &Face<'a>, plane: Plane) -> SlaveFace<'a> {
+    /// The face with the unit normal in its middle.
+    pub(super) fn new(face: &Face<'a>, normal: Vector3) -> SlaveFace<'a> {
+        let plane = Plane::new(face.kind.dim(), face.position(face.kind.centre()), normal);
         let flat = plane.flatten(face);
-        let (outline, around) = if flat.is_curved() {
-            let places = &face.kind.places()[..face.kind.corners()];
-            (places.to_vec(), Some(flat.around(AROUND)))
-        } else {
-            (Polygon::around(&flat.face).corners().to_vec(), None)
-        };
-        let area = measure(&outline);
-        SlaveFace { plane, flat, outline, around, area, face: face.clone() }
+        let around = flat.is_curved().then(|| flat.around(AROUND));
+        let mut own = face.kind.places()[..face.kind.corners()].to_vec();
+        if around.is_none() {
+            outline(&flat.face, &mut own);
+        }
+        let area = measure(&own);
+        SlaveFace { plane, flat, outline: own, around, area, face: face.clone() }
     }
 
     /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`.
@@ -100,12 +103,12 @@ impl<'a> SlaveFace<'a> {
         found: &mut Overlaps,
     ) -> Result<Part, NotFound> {
         let seen = self.plane.project(master);
-        let Overlaps { points, clipper, near, mapped } = found;
-        let window = Polygon::around(&seen);
+        let Overlaps { points, clipper, near, window, mapped } = found;
+        outline(&seen, window);
         let common = match &self.around {
-            None => clipper.common_part(window.corners(), &self.outline),
+            None => clipper.common_part(window, &self.outline),
             Some(around) => {
-                self.map(near.common_part(window.corners(), around), mapped)?;
+                self.map(near.common_part(window, around), mapped)?;
                 clipper.common_part(mapped, &self.outline)
             }
         };
@@ -125,8 +128,11 @@ impl<'a> SlaveFace<'a> {
 
     /// The share of the smaller of two faces that has the given share of this one.
     pub(super) fn of_smaller(&self, share: f64, other: &Face<'_>) -> f64 {
-        let area = |face: &Face<'_>| measure(Polygon::around(face).corners());
-        let (own, other) = (area(&self.flat.face), area(&self.plane.project(other)));
+        let [own, other] = [&self.flat.face, &self.plane.project(other)].map(|face| {
+            let mut polygon = Vec::new();
+            outline(face, &mut polygon);
+            measure(&polygon)
+        });
         share * own / own.min(other)
     }
 
@@ -147,36 +153,25 @@ impl<'a> SlaveFace<'a> {
         Ok(())
     }
 
-    /// The rule for a common part: exact for products of shape functions if local coordinates are linear in the
-    /// position, and otherwise with so many more points as the distance from linear asks for.
-    fn rule(&self, master: &Flat<'_>) -> Rule {
+    /// The number of points along each direction on a common part: exact for products of shape functions if local
+    /// coordinates are linear in the position, and otherwise so many more as the distance from linear asks for.
+    fn points_along(&self, master: &Flat<'_>) -> usize {
         let own = self.face.kind.degree();
         // The length of a ring is as much of a polynomial as the place.
         let ring = if self.face.is_ring { own } else { 0 };
-        let degree = own + own.max(master.face.kind.degree()) + ring;
-        let count = |exact: usize, size: f64| {
-            let further = self.further_degrees(master, size);
-            further.map_or(MOST_POINTS, |more| (exact + more).div_ceil(2))
-        };
-        if self.face.kind.is_line() {
-            let points = count(degree + 1, 1.0).min(MOST_POINTS);
-            return Rule { points, quartered: false };
-        }
-        // The area of a quadrilateral is linear along both directions. Where faces are so distorted that they ask for more
-        // points, its quarters are taken.
-        let whole = count(degree + 2, 1.0);
-        let quartered = whole > MOST_POINTS;
-        let needed = if quartered { count(degree + 2, 0.5) } else { whole };
-        Rule { points: needed.min(MOST_POINTS), quartered }
+        // The area of a quadrilateral is linear along both directions.
+        let of_area = if self.face.kind.is_line() { 1 } else { 2 };
+        let degree = own + own.max(master.face.kind.degree()) + ring + of_area;
+        let further = self.further_degrees(master);
+        further.map_or(MOST_POINTS, |more| (degree + more).div_ceil(2).min(MOST_POINTS))
     }
 
-    /// Degrees that a rule has to be exact to beyond that of products of shape functions, on parts of the given
-    /// size beside the face's; `None`: as many as there are.
+    /// Degrees that a rule has to be exact to beyond that of products of shape functions; `None`: as many as there are.
     ///
     /// With the distortion `e`, local coordinates are analytic in the position up to the
     /// distance `1 / e` from the middle, so that what is neglected falls by `2 / e` with each degree. The
     /// area of a face whose warp adds the slope `w` has terms `w^2k` of the degree `2 k`.
-    fn further_degrees(&self, master: &Flat<'_>, size: f64) -> Option<usize> {
+    fn further_degrees(&self, master: &Flat<'_>) -> Option<usize> {
         let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
         let distortion = self.flat.distortion().max(master.distortion());
         let warp = self.flat.warp();
@@ -185,11 +180,11 @@ impl<'a> SlaveFace<'a> {
         }
         let of_edges = OF_SAG * self.flat.sag().max(master.sag());
         let of_distortion = match distortion > ON_EDGE {
-            true => terms(0.5 * size * distortion, LEFT.max(of_edges)) - 1,
+            true => terms(0.5 * distortion, LEFT.max(of_edges)) - 1,
             false => 0,
         };
         let of_warp = match warp > ON_EDGE {
-            true => 2 * (terms(size * size * warp * warp, LEFT_OF_AREA.max(of_edges)) - 1),
+            true => 2 * (terms(warp * warp, LEFT_OF_AREA.max(of_edges)) - 1),
             false => 0,
         };
         Some(of_distortion.max(of_warp))
@@ -203,8 +198,8 @@ impl<'a> SlaveFace<'a> {
         points: &mut Vec<Meeting>,
     ) -> Result<f64, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
-        self.rule(master).on(common, |p, part| {
-            let in_plane = self.around.is_none();
+        let in_plane = self.around.is_none();
+        quadrature::points(common, self.points_along(master)).try_for_each(|(p, part)| {
             let slave = if in_plane { self.flat.local(p).ok_or(NotFound)? } else { p };
             let [x, along, across] = self.flat.at(slave);
             let normal = along.cross(&across);

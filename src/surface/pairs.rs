@@ -1,20 +1,10 @@
 //! Contact pairs from surfaces: what the caller gets.
 
-use super::plane;
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
 
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
-
-/// The nodes of a row with their weights: slaves and masters in one list, which is given back in half the time of two.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RowNodes {
-    /// Slaves by node, then masters by node.
-    pub(super) weights: Vec<Weight>,
-    /// Number of slaves.
-    pub(super) slaves: usize,
-}
 
 /// A contact pair as a row over nodes: `d = Σ a_i u_i - Σ w_k u_k` over the slave's nodes and the
 /// master's, in the host's axes, with `Σ a_i = 1`, and `Σ w_k = 1` unless the pair faces an obstacle.
@@ -24,8 +14,10 @@ pub struct RowNodes {
 pub struct SurfacePair {
     /// The slave node that the row belongs to. No other pair belongs to it.
     pub slave: usize,
-    /// The nodes of the row.
-    pub nodes: RowNodes,
+    /// The nodes of the row, slaves by node, then masters by node: one list is given back in half the time of two.
+    pub nodes: Vec<Weight>,
+    /// Number of slaves among them.
+    pub slave_count: usize,
     /// Where the force of the pair acts on the slave's body: the slave nodes' places by their weights.
     pub point: [f64; 3],
     /// Unit normal, outward from the slave's body.
@@ -147,39 +139,21 @@ pub struct PairArrays {
 }
 
 impl SurfacePair {
-    /// Makes a pair that acts at `point`, against the point `opposite`, if there is one.
-    pub(super) fn new(
-        dim: usize,
-        (slave, area): (usize, f64),
-        nodes: RowNodes,
-        normal: Vector3,
-        (point, opposite): (Vector3, Option<Vector3>),
-    ) -> SurfacePair {
-        let gap = opposite.map_or(0.0, |opposite| {
-            let size = normal.abs().dot(&(opposite.abs() + point.abs()));
-            without_rounding(normal.dot(&(opposite - point)), size)
-        });
-        let tangents = plane::tangents(dim, normal).map(Into::into);
-        let (point, normal) = (point.into(), normal.into());
-        let held = [false; 3];
-        SurfacePair { slave, nodes, point, normal, tangents, gap, area, held }
-    }
-
     /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
     /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
     /// in a neighbour with little cover has that neighbour.
     pub fn slaves(&self) -> &[Weight] {
-        self.nodes.slaves()
+        &self.nodes[..self.slave_count]
     }
 
     /// Master nodes with their weights, by node; none against an obstacle.
     pub fn masters(&self) -> &[Weight] {
-        self.nodes.masters()
+        &self.nodes[self.slave_count..]
     }
 
     /// The pair without its masters: against an obstacle.
     pub fn without_masters(mut self) -> SurfacePair {
-        self.nodes.weights.truncate(self.nodes.slaves);
+        self.nodes.truncate(self.slave_count);
         self
     }
 
@@ -190,13 +164,10 @@ impl SurfacePair {
     }
 }
 
-impl RowNodes {
-    pub(super) fn slaves(&self) -> &[Weight] {
-        &self.weights[..self.slaves]
-    }
-
-    pub(super) fn masters(&self) -> &[Weight] {
-        &self.weights[self.slaves..]
+impl SurfaceReport {
+    /// The report that begins on so many slave faces.
+    pub(super) fn new(slave_faces: usize, search_distance: f64) -> SurfaceReport {
+        SurfaceReport { search_distance, slave_faces, ..SurfaceReport::default() }
     }
 }
 
@@ -243,7 +214,7 @@ impl SurfacePairs {
     /// If a list of degrees of freedom ends before the last node of a pair.
     pub fn rows_on(&self, dofs: NodeDofs<'_>) -> PairArrays {
         let (dim, count) = (self.dim, self.pairs.len());
-        let entries = self.pairs.iter().map(|pair| pair.nodes.weights.len()).sum();
+        let entries = self.pairs.iter().map(|pair| pair.nodes.len()).sum();
         let mut arrays = PairArrays {
             dim,
             masters: Vec::with_capacity(dim * entries),

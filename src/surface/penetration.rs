@@ -18,7 +18,7 @@ use super::shape::Local;
 use super::sweep::Hull;
 use super::watch::Watch;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::{Vector3, unit};
+use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
 
 /// Less than this share of a face's size is rounding of displacements.
@@ -73,14 +73,6 @@ struct Held {
     nodes: Vec<bool>,
     uncovered: Vec<bool>,
     asked: Vec<usize>,
-}
-
-/// A point of a slave face with what decides about it.
-struct Asked {
-    at: Local,
-    /// Before the motion.
-    normal: Vector3,
-    least: f64,
 }
 
 impl KeptSurfaces {
@@ -151,9 +143,9 @@ impl KeptSurfaces {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
-                self.deepest(held, &slaves, watch, |[before, face], asked| {
-                    let depths = [before, face].map(|face| depth(face.position(asked.at)));
-                    (depths[0] <= asked.least).then_some((depths[1], None))
+                self.deepest(held, &slaves, watch, |faces, at, least| {
+                    let [before, now] = faces.map(|face| depth(face.position(at)));
+                    (before <= least).then_some((now, None))
                 })
             }
             Opposite::Faces { lists, rigid } => {
@@ -210,28 +202,29 @@ impl KeptSurfaces {
         let span = bounds.map_or(0.0, |all| all.diagonal());
         let reach = Reach { overlap: span, open: 0.0, layer: span };
         let mut candidates = Candidates::new(opposite, reach, span);
-        self.deepest(held, slaves, watch, |[first, face], asked| {
-            let (x, origin) = (face.position(asked.at), first.position(asked.at));
-            let plane = Plane::new(self.dim, x, asked.normal);
-            let behind = candidates.of_point(x, asked.normal).iter().filter_map(|&at| {
+        self.deepest(held, slaves, watch, |[first, face], at, least| {
+            let (x, origin, normal) = (face.position(at), first.position(at), first.normal(at));
+            let plane = Plane::new(self.dim, x, normal);
+            let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
                 let flat = plane.flatten(&after.face(at));
                 let local = flat.local([0.0; 2]).filter(|&local| is_on(flat.face.kind, local))?;
                 let apart = before.face(at).position(local) - origin;
-                let was_before = asked.normal.dot(&apart) >= -asked.least;
+                let was_before = normal.dot(&apart) >= -least;
                 let depth = -flat.height(local);
-                (was_before && depth > asked.least).then_some((depth, Some(at)))
+                (was_before && depth > least).then_some((depth, Some(at)))
             });
             behind.min_by(|a, b| a.0.total_cmp(&b.0))
         })
     }
 
-    /// The deepest of all points of the faces that are asked, whose depths `through` tells with the master face.
+    /// The deepest of all points of the faces that are asked. `through` tells its depth with the master face, of both faces, the
+    /// place on them and the least depth that counts.
     fn deepest(
         &self,
         held: &Held,
         [before, after]: &[Side<'_>; 2],
         watch: &mut Watch<'_, '_>,
-        mut through: impl FnMut([&Face<'_>; 2], &Asked) -> Option<(f64, Option<usize>)>,
+        mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
     ) -> Result<Penetration, Error> {
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
         for &at in &held.asked {
@@ -246,9 +239,7 @@ impl KeptSurfaces {
                 let is_held = place.map_or(face_is_held, is_held);
                 let node = place.map(|&place| self.nodes[place]);
                 let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
-                let normal = unit(faces[0].outward(local)).unwrap_or_default();
-                let asked = Asked { at: local, normal, least };
-                let passed = through([&faces[0], &faces[1]], &asked);
+                let passed = through(faces.each_ref(), local, least);
                 let Some((depth, master)) = passed.filter(|(depth, _)| *depth > least) else {
                     continue;
                 };

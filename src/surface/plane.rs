@@ -50,43 +50,20 @@ impl Plane {
     }
 }
 
-/// Most corners of the outline of a face: those of a quadrilateral with a mid node on each edge.
-const MOST_CORNERS: usize = 8;
-
 /// Where a mid node stands off its straight edge by more than this share of it, the outline goes by it. Without it a
 /// strip of two thirds of this counts for the neighbour, with it of a quarter of that.
 pub(super) const MOST_SAG: f64 = 5e-4;
 
-/// The outline of a projected face as a polygon that turns to the left, or an interval that ascends.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Polygon {
-    corners: [Point; MOST_CORNERS],
-    count: usize,
-}
-
-impl Polygon {
-    pub(super) fn around(face: &Face<'_>) -> Polygon {
-        let (kind, x) = (face.kind, &face.x);
-        let mut outline = Polygon { corners: [[0.0; 2]; MOST_CORNERS], count: 0 };
-        let mut mids = kind.mids().filter(|_| !kind.is_line());
-        for corner in 0..kind.corners() {
-            outline.push(x[corner]);
-            let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
-            mid.into_iter().for_each(|(mid, _)| outline.push(x[mid]));
-        }
-        clip::turn_left(&mut outline.corners[..outline.count]);
-        outline
+/// Makes a polygon the outline of a projected face, turning to the left, or an interval that ascends.
+pub(super) fn outline(Face { kind, x, .. }: &Face<'_>, polygon: &mut Vec<Point>) {
+    polygon.clear();
+    let mut mids = kind.mids().filter(|_| !kind.is_line());
+    for corner in 0..kind.corners() {
+        polygon.push([x[corner].x, x[corner].y]);
+        let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
+        polygon.extend(mid.map(|(mid, _)| [x[mid].x, x[mid].y]));
     }
-
-    fn push(&mut self, corner: Vector3) {
-        self.corners[self.count] = [corner.x, corner.y];
-        self.count += 1;
-    }
-
-    /// Its corners in turn.
-    pub(super) fn corners(&self) -> &[Point] {
-        &self.corners[..self.count]
-    }
+    clip::turn_left(polygon);
 }
 
 /// A projected face.
@@ -135,10 +112,7 @@ impl<'a> Flat<'a> {
 
     /// The height above the plane.
     pub(super) fn height(&self, at: Local) -> f64 {
-        match &self.curved {
-            Some(curved) => curved.height(at),
-            None => self.corners.height(at),
-        }
+        self.at(at)[0].z
     }
 
     /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's
@@ -177,6 +151,7 @@ impl<'a> Flat<'a> {
     }
 
     /// The place in the axes of the plane, and derivatives by the local coordinates.
+    #[inline]
     pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
         match &self.curved {
             Some(curved) => curved.at(at),

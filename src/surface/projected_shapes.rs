@@ -245,37 +245,28 @@ impl Polynomials {
         points: &[Meeting],
         parts: &[Opposite<'_>],
     ) -> Covered {
-        vectorised(
-            #[inline(always)]
-            || self.integrate(slave, points, parts),
-        )
-    }
-
-    #[inline(always)]
-    fn integrate(
-        &mut self,
-        slave: FaceKind,
-        points: &[Meeting],
-        parts: &[Opposite<'_>],
-    ) -> Covered {
-        self.span(slave, points);
-        let mut integrals = [0.0; MOST_NODES];
-        for point in points {
-            let values = slave.values(point.slave);
-            integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += point.weight * value);
-        }
         let slaves = slave.nodes();
         let most: usize = parts.iter().map(|opposite| opposite.nodes.len()).sum();
         let mut covered = Covered {
-            integrals,
+            integrals: [0.0; MOST_NODES],
             slaves,
             gaps: [0.0; MOST_NODES],
             masters: Vec::with_capacity(most),
             coefficients: Vec::with_capacity(slaves * most),
         };
-        for opposite in parts {
-            self.add_moments(opposite, points, &mut covered);
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                self.span(slave, points);
+                for point in points {
+                    let sums = covered.integrals.iter_mut().zip(slave.values(point.slave));
+                    sums.for_each(|(sum, value)| *sum += point.weight * value);
+                }
+                for opposite in parts {
+                    self.add_moments(opposite, points, &mut covered);
+                }
+            },
+        );
         covered.masters.shrink_to_fit();
         covered.coefficients.shrink_to_fit();
         covered

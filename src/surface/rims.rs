@@ -44,10 +44,10 @@ const AS_NEAR: f64 = 0.9;
 pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
-    (slave, dim, planes): (&Side<'_>, usize, &OnPlanes),
+    (slave, planes): (&Side<'_>, &OnPlanes),
     watch: &mut Watch<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
-    let least = least_cover(rims, rows, dim);
+    let least = least_cover(rims, rows, slave.dim);
     // Those that keep their rows with their cover, and those that are folded with the nodes around.
     let (mut homes, mut little) = (HashMap::new(), Vec::new());
     for (&node, row) in rows.iter() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::control::Basis;
-use super::pairs::{RowNodes, Weight};
+use super::pairs::Weight;
 use super::shape::{MOST_NODES, Values};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
@@ -52,13 +52,13 @@ impl Row {
         self.weights.extend(masters.map(|(node, weight)| (node | MASTER, weight)));
     }
 
-    /// The nodes of slaves and masters, the weights of either side with the sum 1. Weights that are zero but
-    /// for rounding are left out: a node that a row does not move shall not be named by it.
-    pub(super) fn into_nodes(self) -> RowNodes {
+    /// The nodes, slaves, then masters, and the number of slaves; the weights of either side have the sum 1. Weights that are
+    /// zero but for rounding are left out: a node that a row does not move shall not be named by it.
+    pub(super) fn into_nodes(self) -> (Vec<Weight>, usize) {
         let mut weights = merged(self.weights, self.area);
         let slaves = weights.partition_point(|(node, _)| node & MASTER == 0);
         weights[slaves..].iter_mut().for_each(|(node, _)| *node &= !MASTER);
-        RowNodes { weights, slaves }
+        (weights, slaves)
     }
 }
 
@@ -70,7 +70,7 @@ pub(super) fn add_face(
     (nodes, basis): (&[usize], &Basis),
     integrals: [Values; 2],
     masters: impl Iterator<Item = (usize, Values)>,
-    (normals, gaps): (&[Vector3; MOST_NODES], Values),
+    (normals, gaps): ([Vector3; MOST_NODES], Values),
 ) {
     let [areas, whole] = integrals.map(|integrals| basis.functions(integrals));
     let control = |(node, values)| (node, basis.control_values(values));

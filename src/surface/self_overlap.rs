@@ -6,7 +6,6 @@
 use super::candidates::{SAME_WAY, SearchFaces};
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
-use super::plane::Plane;
 use super::sweep::Sweep;
 use super::watch::Watch;
 use crate::error::{Error, index};
@@ -28,7 +27,7 @@ const COMMON: f64 = 0.05;
 pub(super) fn check(
     side: &Side<'_>,
     SearchFaces { tree, normals }: &mut SearchFaces<'_>,
-    (dim, reach): (usize, f64),
+    reach: f64,
     watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {
     let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
@@ -38,12 +37,13 @@ pub(super) fn check(
         let distance = reach.min(UPON * face.size());
         tree.near(&Sweep::of_face(&face, normals[at], [distance; 2]), &mut near);
         near.retain(|&other| other < at && normals[other].dot(&normals[at]) > SAME_WAY);
-        near.retain(|&other| dim == 2 || !are_neighbours(side.corners(at), side.corners(other)));
+        near.retain(|&other| {
+            side.dim == 2 || !are_neighbours(side.corners(at), side.corners(other))
+        });
         if near.is_empty() {
             continue;
         }
-        let plane = Plane::new(dim, face.position(face.kind.centre()), normals[at]);
-        let in_plane = SlaveFace::new(&face, plane);
+        let in_plane = SlaveFace::new(&face, normals[at]);
         for &other in &near {
             let second = side.face(other);
             let distance = distance.min(UPON * second.size());

@@ -83,6 +83,11 @@ impl FaceKind {
         }
     }
 
+    /// Dimension of the space that it stands in.
+    pub(super) fn dim(self) -> usize {
+        if self.is_line() { 2 } else { 3 }
+    }
+
     /// Returns `true` if it is a line of the plane.
     pub(super) fn is_line(self) -> bool {
         matches!(self, Line2 | Line3)

@@ -11,11 +11,10 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::face::Face;
 use super::mesh::{ON_PLANE, Side};
-use super::normals::LEAST_NORMAL;
-use super::pairs::SurfacePair;
+use super::normals::{at_nodes, direction};
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
-use crate::linalg::vector3::{Vector3, unit};
+use crate::linalg::vector3::Vector3;
 
 /// A plane of symmetry across an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +37,6 @@ impl OnPlanes {
     /// A plane across an axis that is none, or at no finite place; a slave side on both sides of a plane.
     pub(super) fn new(
         slave: &Side<'_>,
-        dim: usize,
         (planes, axisymmetric): (&[SymmetryPlane], bool),
     ) -> Result<Self, Error> {
         let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
@@ -52,8 +50,8 @@ impl OnPlanes {
         }
         for (k, &SymmetryPlane { axis, at }) in planes.iter().enumerate() {
             let plane = format!("plane of symmetry {}", index(k));
-            if axis >= dim {
-                let (axis, last) = (index(axis), index(dim - 1));
+            if axis >= slave.dim {
+                let (axis, last) = (index(axis), index(slave.dim - 1));
                 return refuse(format!("{plane}: there is no axis {axis}, the last one is {last}"));
             }
             if !at.is_finite() {
@@ -61,7 +59,7 @@ impl OnPlanes {
             }
             let mut beyond = [None; 2];
             for &node in &nodes {
-                let height = slave.position(node)[axis] - slave.inside(at);
+                let height = slave.position(node)[axis] - slave.scale * at;
                 if height.abs() <= near {
                     found.axes.entry(node).or_default()[axis] = true;
                 } else {
@@ -85,7 +83,7 @@ impl OnPlanes {
         let Some(axes) = self.axes.get(&node) else { return normal };
         let mut along = normal;
         (0..3).filter(|&axis| axes[axis]).for_each(|axis| along[axis] = 0.0);
-        if along.norm() > LEAST_NORMAL { unit(along).unwrap_or(normal) } else { normal }
+        direction(along, 1.0).unwrap_or(normal)
     }
 
     /// The axes across which a node stands on a plane.
@@ -104,37 +102,50 @@ impl OnPlanes {
         face.is_ring && face.nodes.iter().any(|&node| self.of(node)[0])
     }
 
-    /// The pair, held across the planes on which its slave node stands.
+    /// The axes across which a slave node with this normal is held.
     ///
     /// # Errors
-    /// Its normal is across one.
-    pub(super) fn hold(&self, pair: SurfacePair) -> Result<SurfacePair, Error> {
-        let Some(&held) = self.axes.get(&pair.slave) else { return Ok(pair) };
-        let is_across = |(held, part): (bool, f64)| held && part != 0.0;
-        if held.into_iter().zip(pair.normal).any(is_across) {
+    /// The normal is across one.
+    pub(super) fn held(&self, node: usize, normal: Vector3) -> Result<[bool; 3], Error> {
+        let held = self.of(node);
+        if held.iter().zip(&normal).any(|(held, part)| *held && *part != 0.0) {
             let message = format!(
                 "a plane of symmetry has slave faces in it, at node {}: leave these faces out, or the plane",
-                index(pair.slave)
+                index(node)
             );
             return Err(Error::invalid(Argument::Settings, message));
         }
-        Ok(SurfacePair { held, ..pair })
+        Ok(held)
     }
 }
 
 impl Side<'_> {
-    /// The mean normals of the nodes, in the planes of symmetry on which they stand.
+    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand.
     ///
     /// # Errors
-    /// Normals that cancel; what ends the watch.
-    pub(super) fn node_normals_on(
+    /// A node whose faces' normals cancel; what ends the watch.
+    pub(super) fn node_normals(
         &self,
         planes: &OnPlanes,
         watch: &mut Watch<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
-        let mut normals = self.node_normals(watch)?;
-        normals.iter_mut().for_each(|(node, normal)| *normal = planes.turned(*node, *normal));
-        Ok(normals)
+        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
+        for at in 0..self.count() {
+            watch.goes_on()?;
+            let face = self.face(at);
+            for (&node, normal) in face.nodes.iter().zip(at_nodes(&face)) {
+                sums.entry(node).or_insert((Vector3::zeros(), at)).0 += normal;
+            }
+        }
+        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
+            watch.goes_on()?;
+            let normal = direction(sum, 1.0).ok_or_else(|| {
+                let what = format!("has node {}, where normals cancel", index(node));
+                self.refuse(face, &what)
+            })?;
+            Ok((node, planes.turned(node, normal)))
+        };
+        sums.into_iter().map(normal).collect()
     }
 }
 

@@ -171,9 +171,10 @@ fn worth(edge: &Wall, most: f64) -> f64 {
 /// The walls of a face at its edges, as long as these.
 fn edges(face: &Face<'_>) -> Vec<Wall> {
     let corners = face.kind.corners();
-    let Some(normal) = face.middle_normal().filter(|_| !face.kind.is_line()) else {
+    if face.kind.is_line() {
         return Vec::new();
-    };
+    }
+    let normal = face.middle_normal();
     let wall = |i: usize| {
         let along = (face.x[(i + 1) % corners] - face.x[i]).cross(&normal);
         Wall { along, most: along.dot(&face.x[i]) }

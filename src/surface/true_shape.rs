@@ -26,18 +26,18 @@ const LAST: f64 = 1e-9;
 /// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
 const LEAST_FALL: f64 = 0.2;
 
-/// A side with its true shape.
-enum TrueSide {
-    Facets,
-    Exact(ExactShape),
-    Fitted(Fitted),
+/// A side with its true shape: an exact one, or fitted normals; without either its faces.
+#[derive(Default)]
+struct TrueSide {
+    exact: Option<ExactShape>,
+    fitted: Option<Fitted>,
 }
 
-/// A face of a side with a shape.
-enum Over<'a> {
-    Face(&'a Face<'a>),
-    Exact(&'a Face<'a>, &'a ExactShape),
-    Patch(Patch),
+/// A face of a side with its shape.
+struct Over<'a> {
+    face: &'a Face<'a>,
+    exact: Option<&'a ExactShape>,
+    patch: Option<Patch>,
 }
 
 /// Slave and master with their true shapes.
@@ -53,7 +53,6 @@ impl<'a> TrueSides<'a> {
     /// A shape with wrong numbers, or one that a node of its side is far from.
     pub(super) fn new(
         [slave, master]: [&'a Side<'a>; 2],
-        dim: usize,
         shapes: &[TrueShape; 2],
         watch: &mut Watch<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
@@ -61,15 +60,15 @@ impl<'a> TrueSides<'a> {
             return Ok(None);
         }
         let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
-            TrueShape::Facets => Ok(TrueSide::Facets),
-            TrueShape::Fitted => Ok(TrueSide::Fitted(fitted(side, watch)?)),
+            TrueShape::Facets => Ok(TrueSide::default()),
+            TrueShape::Fitted => Ok(TrueSide { fitted: Some(fitted(side, watch)?), exact: None }),
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
                 };
-                let shape = shape.check(dim, side.scale).map_err(refuse)?;
+                let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
                 is_near(side, &shape).map_err(refuse)?;
-                Ok(TrueSide::Exact(shape))
+                Ok(TrueSide { exact: Some(shape), fitted: None })
             }
         };
         let sides = [side(slave, "slave", &shapes[0])?, side(master, "master", &shapes[1])?];
@@ -78,11 +77,7 @@ impl<'a> TrueSides<'a> {
 
     /// The size of lengths that gaps are differences of, beside the places of nodes.
     pub(super) fn size(&self) -> f64 {
-        let size = |side: &TrueSide| match side {
-            TrueSide::Facets | TrueSide::Fitted(_) => 0.0,
-            TrueSide::Exact(shape) => shape.size(),
-        };
-        self.sides.iter().map(size).sum()
+        self.sides.iter().flat_map(|side| &side.exact).map(ExactShape::size).sum()
     }
 
     /// The gaps at the points of a slave face.
@@ -98,9 +93,9 @@ impl<'a> TrueSides<'a> {
             let opposite = self.sides[1].over(part.at, &opposite);
             let gap = |point: &Meeting| {
                 let from = own.point(point.slave);
-                match &opposite {
-                    Over::Exact(_, shape) => along_to_shape(from, shape, size),
-                    other => along_to_patch(from, |at| other.at(at), point.master),
+                match opposite.exact {
+                    Some(shape) => along_to_shape(from, shape, size),
+                    None => along_to_patch(from, |at| opposite.at(at), point.master),
                 }
             };
             points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
@@ -128,40 +123,30 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
 
 impl TrueSide {
     fn over<'s>(&'s self, at: usize, face: &'s Face<'_>) -> Over<'s> {
-        match self {
-            TrueSide::Facets => Over::Face(face),
-            TrueSide::Exact(shape) => Over::Exact(face, shape),
-            TrueSide::Fitted(normals) => Over::Patch(Patch::new(face, &normals[at])),
-        }
+        let patch = self.fitted.as_ref().map(|normals| Patch::new(face, &normals[at]));
+        Over { face, exact: self.exact.as_ref(), patch }
     }
 }
 
 impl Over<'_> {
     /// The point of the face, or of its patch, with its derivatives; across a line that along the third axis.
     fn at(&self, at: Local) -> (Vector3, [Vector3; 2]) {
-        match self {
-            Over::Face(face) | Over::Exact(face, _) => {
-                let [a, b] = face.derivatives(at);
-                (face.position(at), [a, if face.kind.is_line() { axis(2) } else { b }])
-            }
-            Over::Patch(patch) => patch.at(at),
+        if let Some(patch) = &self.patch {
+            return patch.at(at);
         }
+        let [a, b] = self.face.derivatives(at);
+        (self.face.position(at), [a, if self.face.kind.is_line() { axis(2) } else { b }])
     }
 
     /// The true point near a point of the face, and the unit normal there, outward as that of the face.
     fn point(&self, at: Local) -> (Vector3, Vector3) {
         let (x, [a, b]) = self.at(at);
         let outward = unit(a.cross(&b)).unwrap_or_default();
-        match self {
-            Over::Face(_) | Over::Patch(_) => (x, outward),
-            Over::Exact(_, shape) => match shape.distance(x) {
-                Some((distance, gradient)) => {
-                    let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };
-                    (x - distance * gradient, sign * gradient)
-                }
-                None => (x, outward),
-            },
-        }
+        let Some((distance, gradient)) = self.exact.and_then(|shape| shape.distance(x)) else {
+            return (x, outward);
+        };
+        let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };
+        (x - distance * gradient, sign * gradient)
     }
 }
 

@@ -128,23 +128,10 @@ impl SurfacePairs {
         pairs: Range<usize>,
         results: &PairResults<'_>,
     ) -> Result<ZoneSums, Error> {
-        let dim = self.dim;
-        let part = SurfacePairs {
-            dim,
-            pairs: self.pairs[pairs.clone()].to_vec(),
-            axisymmetric: self.axisymmetric,
-            ..SurfacePairs::default()
-        };
-        let of =
-            |values: &'_ [f64], each: usize| values[each * pairs.start..each * pairs.end].to_vec();
-        let (d, force) = (of(results.d, dim), of(results.force, dim));
-        let slip = results.reference_slip.map(|slip| of(slip, dim - 1));
-        let own = PairResults { gap: None, reference_slip: slip.as_deref(), d: &d, force: &force };
-        let pressure = |(pair, normal): (&super::SurfacePair, &f64)| -normal / pair.area;
-        let pressures = part.pairs.iter().zip(force.iter().step_by(dim)).map(pressure);
+        let pressure = |pair: usize| -results.force[self.dim * pair] / self.pairs[pair].area;
         Ok(ZoneSums {
-            resultant: part.resultant(&own, &[0.0; 3][..dim])?,
-            largest_pressure: pressures.fold(0.0, f64::max),
+            resultant: self.resultant_of(pairs.clone(), results, &[0.0; 3][..self.dim])?,
+            largest_pressure: pairs.map(pressure).fold(0.0, f64::max),
         })
     }
 }

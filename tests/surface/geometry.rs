@@ -18,8 +18,6 @@ mod face;
 mod quadrature;
 #[path = "../../src/surface/shape.rs"]
 mod shape;
-#[path = "../../src/surface/simple_parts.rs"]
-mod simple_parts;
 
 mod curved_faces;
 mod functions;

@@ -1,8 +1,7 @@
 //! Areas and integrals over polygons, intervals and triangles.
 
 use super::clip::{Clipper, Point, measure};
-use super::quadrature::{on_interval, on_triangle};
-use super::simple_parts::Rule;
+use super::quadrature::{MOST_POINTS, on_interval, points};
 
 /// Squares shifted along both axes and turned: areas by elementary geometry.
 #[test]
@@ -27,24 +26,22 @@ fn areas_of_common_parts() {
     assert!(common_part(&[[0.0, 0.0], [1.0, 0.0]], &[[1.0, 0.0], [3.0, 0.0]]).is_empty());
 }
 
-/// Integrals of powers: `1 / (k + 1)` on 0..1, `2 i! j! / (i + j + 2)!` on the unit triangle of
-/// area one.
+/// Integrals of powers: `1 / (k + 1)` on 0..1, `i! j! / (i + j + 2)!` on the unit triangle.
 #[test]
 fn powers_are_integrated() {
     let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
-    for n in 1..=9 {
+    let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    for n in 1..=MOST_POINTS {
         for k in 0..2 * n {
-            let sum: f64 = on_interval(n).iter().map(|([_, x, _], w)| w * x.powi(k as i32)).sum();
+            let sum: f64 = on_interval(n).iter().map(|(x, w)| w * x.powi(k as i32)).sum();
             assert!((sum - 1.0 / (k as f64 + 1.0)).abs() < 1e-15, "{n}, {k}");
         }
         for i in 0..2 * n - 1 {
             for j in 0..2 * n - 1 - i {
-                let sum: f64 = on_triangle(n)
-                    .iter()
-                    .map(|([_, s, t], w)| w * s.powi(i as i32) * t.powi(j as i32))
-                    .sum();
-                let exact = 2.0 * factorial(i) * factorial(j) / factorial(i + j + 2);
-                assert!((sum - exact).abs() < 4e-15, "{n}, {i}, {j}");
+                let power = |([s, t], w): (Point, f64)| w * s.powi(i as i32) * t.powi(j as i32);
+                let sum: f64 = points(&triangle, n).map(power).sum();
+                let exact = factorial(i) * factorial(j) / factorial(i + j + 2);
+                assert!((sum - exact).abs() < 2e-15, "{n}, {i}, {j}");
             }
         }
     }
@@ -55,20 +52,11 @@ fn powers_are_integrated() {
 #[test]
 fn moments_of_polygons_that_are_not_convex() {
     let l = [[1.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]];
-    let (points, quartered) = (3, false);
-    for rule in [Rule { points, quartered }, Rule { points, quartered: true }] {
-        for (i, j) in (0..=4).flat_map(|i| (0..=4 - i).map(move |j| (i, j))) {
-            let mut sum = 0.0;
-            let done: Result<(), ()> = rule.on(&l, |[x, y], area| {
-                sum += area * x.powi(i) * y.powi(j);
-                Ok(())
-            });
-            assert!(done.is_ok());
-            let power = |from: f64, k: i32| (2.0_f64.powi(k) - from.powi(k)) / f64::from(k);
-            let exact =
-                power(0.0, i + 1) * power(0.0, j + 1) - power(1.0, i + 1) * power(1.0, j + 1);
-            // Some fifty terms of the size of the sum.
-            assert!((sum - exact).abs() < 1e-14 * exact, "{i}, {j}, {quartered}");
-        }
+    for (i, j) in (0..=4).flat_map(|i| (0..=4 - i).map(move |j| (i, j))) {
+        let sum: f64 = points(&l, 3).map(|([x, y], area)| area * x.powi(i) * y.powi(j)).sum();
+        let power = |from: f64, k: i32| (2.0_f64.powi(k) - from.powi(k)) / f64::from(k);
+        let exact = power(0.0, i + 1) * power(0.0, j + 1) - power(1.0, i + 1) * power(1.0, j + 1);
+        // Some fifty terms of the size of the sum.
+        assert!((sum - exact).abs() < 1e-14 * exact, "{i}, {j}");
     }
 }

@@ -1,0 +1,101 @@
+//! From rows of slave nodes to pairs; and the rows of faces that count as covered wholly.
+
+use std::collections::BTreeMap;
+
+use super::control::Edges;
+use super::mesh::Side;
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
+use super::plane;
+use super::row::{Row, add_face};
+use super::symmetry::OnPlanes;
+use super::watch::Watch;
+use crate::error::Error;
+use crate::linalg::vector3::Vector3;
+
+/// The pair of a slave node and its row, in the planes of symmetry on which the node stands. The gap is that between the
+/// points of both sides, and 0 without masters.
+///
+/// # Errors
+/// A normal across a plane of symmetry.
+pub(super) fn pair_of_row(
+    [slave, master]: [&Side<'_>; 2],
+    planes: &OnPlanes,
+    (node, row): (usize, Row),
+    normal: Vector3,
+) -> Result<SurfacePair, Error> {
+    let (area, normal) = (row.area, planes.turned(node, normal));
+    let (nodes, slave_count) = row.into_nodes();
+    let point = slave.point(&nodes[..slave_count]);
+    let gap = match &nodes[slave_count..] {
+        [] => 0.0,
+        masters => {
+            let opposite = master.point(masters);
+            let size = normal.abs().dot(&(opposite.abs() + point.abs()));
+            without_rounding(normal.dot(&(opposite - point)), size)
+        }
+    };
+    Ok(SurfacePair {
+        slave: node,
+        nodes,
+        slave_count,
+        point: point.into(),
+        normal: normal.into(),
+        tangents: plane::tangents(slave.dim, normal).map(Into::into),
+        gap,
+        area,
+        held: planes.held(node, normal)?,
+    })
+}
+
+/// The pairs of rows; slave nodes without a row are unpaired. The covered area is added to the report.
+///
+/// # Errors
+/// Those of `pair`, which makes a pair of a node and its row; what ends the watch.
+pub(super) fn pairs_of_rows(
+    slave: &Side<'_>,
+    rows: BTreeMap<usize, Row>,
+    mut report: SurfaceReport,
+    pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
+    watch: &mut Watch<'_, '_>,
+) -> Result<SurfacePairs, Error> {
+    let watched = |(node, row)| {
+        watch.goes_on()?;
+        pair(node, row)
+    };
+    let pairs: Vec<SurfacePair> = rows.into_iter().map(watched).collect::<Result<_, Error>>()?;
+    report.covered_area = pairs.iter().map(|pair| pair.area).sum();
+    let mut unpaired = slave.all_nodes();
+    watch.goes_on()?;
+    let mut next = pairs.iter().peekable();
+    unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
+    Ok(SurfacePairs { dim: slave.dim, pairs, unpaired, report, ..SurfacePairs::default() })
+}
+
+/// The slave's part of the rows all of whose slave nodes meet something, as if every face were covered wholly. The area of
+/// all rows is added to the report.
+///
+/// # Errors
+/// What ends the watch.
+pub(super) fn whole_rows(
+    meets: impl Fn(usize) -> bool,
+    (side, planes): (&Side<'_>, &OnPlanes),
+    report: &mut SurfaceReport,
+    watch: &mut Watch<'_, '_>,
+) -> Result<BTreeMap<usize, Row>, Error> {
+    let faces = || (0..side.count()).map(|face| side.face(face));
+    let mut edges = Edges::default();
+    for face in faces() {
+        watch.goes_on()?;
+        edges.add(face.kind, face.nodes, !planes.touch_axis(&face));
+    }
+    let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
+    for face in faces() {
+        watch.goes_on()?;
+        let basis = edges.basis(face.kind, face.nodes, true);
+        let (on, integrals) = ((face.nodes, &basis), [face.integrals(); 2]);
+        add_face(&mut rows, on, integrals, std::iter::empty(), Default::default());
+    }
+    report.slave_area = rows.values().map(|row| row.area).sum();
+    rows.retain(|_, row| row.slaves().all(|(node, _)| meets(node)));
+    Ok(rows)
+}
