@@ -27,12 +27,11 @@ pub const FULL_STEPS: u64 = 4;
 /// of a factorisation.
 pub const CHORD: f64 = 0.1;
 
-/// A first step in the plane is taken so many times if it leaves more than [`CHORD`] of `|H|` and opens more than this part
-/// of the pairs. Newton's step moves the edge of a zone only by the length over which the forces behind it decay, on a
-/// beam its thickness; a pair that opens too early penetrates, and closes by the next step. On 100 problems of `peers.sh` that
-/// saves 12 % of the systems, on beams 39 %, and it costs 5 % on the hard families of the plane. Where few pairs open it saves
+/// A first step in the plane that leaves more than [`CHORD`] of `|H|` and opens more than this part of the pairs is taken
+/// twice. Newton's step moves the edge of a zone only by the length over which the forces behind it decay, on a beam its
+/// thickness; a pair that opens too early penetrates, and closes by the next step. On 100 problems of `peers.sh` that saves
+/// 12 % of the systems, on beams 39 %, and it costs 5 % on the hard families of the plane. Where few pairs open it saves
 /// nothing.
-const FIRST_STEP: f64 = 2.0;
 const OPENING: f64 = 0.05;
 
 /// Sweeps between a solution in the plane and its pieces: two carry a zone's edge far enough.
@@ -311,7 +310,7 @@ impl NormalMap for Dense<'_> {
         let is_far = next.merit > CHORD * point.merit;
         let opens_many = opened > OPENING * point.pieces.len() as f64;
         Ok(match std::mem::take(&mut self.begins) && is_far && opens_many {
-            true => (point.after(self.equations, step, FIRST_STEP), FIRST_STEP),
+            true => (point.after(self.equations, step, 2.0), 2.0),
             false => (next, 1.0),
         })
     }
