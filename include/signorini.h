@@ -1,17 +1,16 @@
 /*
  * signorini: unilateral contact with friction for existing finite-element codes.
  *
- * Sections, in the order of need:
+ * Sections:
  *
  *     1  One call            a matrix that you have condensed
  *     2  Your own matrix     a whole sparse matrix with contact pairs, two bodies, a flexibility
  *     3  Many load cases     solve, recover, certify
  *     4  Fine tuning         settings, report, second solutions, LCPs, versions
- *     5  What may change     behind SIGNORINI_UNSTABLE
+ *     5  What may change     behind SIGNORINI_UNSTABLE: proofs, products in the place of a matrix
  *
  * signorini_surface.h makes the contact pairs from the faces of two meshes and writes files for
- * ParaView; signorini_file.h writes and reads problems, for bug reports; signorini_operator.h is
- * for codes that hand over products in the place of a matrix.
+ * ParaView; signorini_file.h writes and reads problems, for bug reports.
  *
  * The problem. P pairs in dimension D (2 or 3) have N = D P unknowns: a relative displacement d and
  * a contact force F with one normal and D - 1 tangential components each, ordered pair by pair as
@@ -20,55 +19,48 @@
  *     K d = f + F                                        equilibrium
  *     d_n <= gap,  F_n <= 0,  (d_n - gap) F_n = 0        unilateral contact
  *     |F_t| <= mu |F_n|  and
- *         stick:  d_t = slip0                            Coulomb friction
+ *         stick:  d_t = slip0, the reference slip        Coulomb friction
  *         slip:   d_t - slip0 = -lambda F_t, lambda >= 0, |F_t| = mu |F_n|
  *
- * K is the stiffness matrix condensed on the contact components: symmetric, positive definite or
- * semi-definite (bodies supported by nothing but contact). slip0 is the reference slip: the d_t at
- * which a sticking pair stays.
+ * K is the stiffness matrix condensed on the contact components: symmetric, positive definite, or
+ * semi-definite where contact alone supports a body.
  *
- * Signs. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0 presses.
- * F is the force of the contact on the body. f and F are nodal forces, not stresses. Example: above
- * a plane, with n = (0, -1) and t = (1, 0), d_n = -u_y and d_t = u_x. Transform f likewise; the
- * entries K_nt change their sign.
- *
- * Units are yours: any consistent set.
- *
- * A component that you hold fixed stays in a condensed matrix as a decoupled row: zero off the
- * diagonal, positive on the diagonal, zero load.
+ * Signs and units. n is the outward normal of the body: d_n > 0 moves towards the obstacle, F_n < 0
+ * presses. F, the force of the contact on the body, and f are nodal forces, not stresses. Any
+ * consistent set of units serves. Example: above a plane, with n = (0, -1) and t = (1, 0),
+ * d_n = -u_y and d_t = u_x. Transform f likewise; the entries K_nt change their sign.
  *
  * Arguments stand in one order: model or file; sizes; the problem; settings or tolerance; results.
  * Matrices are column-major, each followed by its leading dimension. An argument may be NULL where
  * its description says so, and where the array has no entries. An array that a call writes must not
  * overlap another array of the call. No array of yours is used after the call.
  *
- * Status. What a call returns, unless its description says more:
+ * Status. What a call returns, unless its description says more; signorini_last_error() tells why:
  *
  *     0          solved and certified on your data: report.eta <= settings.tolerance
  *     > 0        the results are no solution: SIGNORINI_STATUS_... tells what they are
  *     -k         the k-th argument is wrong; nothing was written
  *     <= -1000   out of memory, a file that cannot be read or written, a caught defect
  *
- * signorini_last_error() says what is wrong and where. Entries count from 0: K[row,column].
- *
  * Structures begin with struct_size, which you set to sizeof: ..._default does, and so does
- * signorini_model_data data = {sizeof data}. No byte beyond it is read or written. So programs and
+ * signorini_model_data data = {sizeof data}. No byte beyond it is read or written. Programs and
  * libraries of different versions work together: fields that one does not know are zero or keep
  * their defaults. A field that asks for what the library does not have is refused.
  *
- * Threads. Several threads may call at once, on the same model or problem too, as long as none
- * frees it. A thread that is cancelled (pthread_cancel, deferred) ends after its call. The library
- * starts threads only where settings.threads asks for them. Calls need 64 KiB of stack.
+ * Threads. Several threads may call at once, with the same model, problem or settings too, as long
+ * as none frees or changes them (but see SIGNORINI_START_PREVIOUS). A thread that is cancelled
+ * (pthread_cancel, deferred) ends after its call. The library starts threads only where
+ * settings.threads asks for them. Calls need 64 KiB of stack.
  *
  * The library never prints, exits, reads the environment, handles signals or opens files that you
  * do not name. Inside a call floating-point traps and flush-to-zero are off; on return they are
  * as before. The same input gives the same bits on the same machine.
  *
  * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
- * holds nothing; the next call works. For that each call first obtains as much address space as it
- * may need (signorini_solve_memory). Where address space is limited (ulimit -v), a call needs twice
- * its memory. One refused request of the C library ends the process: 40 bytes at the first product
- * of matrices of each thread.
+ * holds nothing; the next call works. For that a call first obtains as much address space as it may
+ * need (signorini_solve_memory). Where that is limited (ulimit -v), a call needs twice its memory.
+ * One refused request of the C library ends the process: 40 bytes at the first product of matrices
+ * of each thread.
  */
 
 #ifndef SIGNORINI_H
@@ -110,10 +102,7 @@ typedef struct signorini_extra signorini_extra;
 #define SIGNORINI_LAW_ORTHOTROPIC 4
 /** As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule). */
 #define SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR 5
-/**
- * A law for each pair. friction: (law, p1, p2, p3), the pair's law and its parameters,
- * unused ones 0.
- */
+/** A law for each pair. friction: (law, p1, p2, p3), its law and parameters, unused ones 0. */
 #define SIGNORINI_LAW_BY_PAIR 6
 #define SIGNORINI_LAW_TIED 7 /**< Tied: d_n = gap, d_t = slip0, whatever F; gap +inf: free. */
 
@@ -135,8 +124,9 @@ typedef struct signorini_extra signorini_extra;
  * @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
  *                  symmetric to 1e-9 of the diagonal, positive semi-definite: signorini_solve
  *                  checks a part of this, a model all. A row of zeros is a component that nothing
- *                  resists. If the body can move freely and touches at two or three points, use a
- *                  model
+ *                  resists. A component that you hold fixed keeps its row: zero off the diagonal,
+ *                  positive on it, zero load. If the body can move freely and touches at two or
+ *                  three points, use a model
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
@@ -149,7 +139,7 @@ typedef struct signorini_extra signorini_extra;
  * @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
  *                  report->equilibrium
  * @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
- * @param report    out: how good the result is; set report->struct_size before; may be NULL
+ * @param report    out: how good the result is; set its struct_size before; may be NULL
  * @param extra     arrays for further results; may be NULL
  */
 int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk, const double *f,
@@ -159,13 +149,14 @@ int32_t signorini_solve(int32_t dim, int64_t pairs, const double *K, int64_t ldk
 
 /**
  * Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
- * finite"; after a solution its remarks, else nothing. A call that releases leaves it. UTF-8,
- * at most 511 bytes, never NULL. The text belongs to the thread, until its next call.
+ * finite" (row, column; entries count from 0); after a solution its remarks, else nothing. A call
+ * that releases leaves it. UTF-8, at most 511 bytes, never NULL. The text belongs to the thread,
+ * until its next call.
  */
 const char *signorini_last_error(void);
 
 /* Status of a call. */
-#define SIGNORINI_STATUS_SOLVED 0          /**< Solved and certified: eta <= tolerance. */
+#define SIGNORINI_STATUS_SOLVED 0          /**< Solved and certified. */
 #define SIGNORINI_STATUS_ITERATION_LIMIT 1 /**< max_iterations is used up: best iterate. */
 #define SIGNORINI_STATUS_TIME_LIMIT 2      /**< time_limit is used up: best iterate. */
 #define SIGNORINI_STATUS_CANCELLED 3       /**< The progress callback cancelled: best iterate. */
@@ -174,10 +165,7 @@ const char *signorini_last_error(void);
  * the proof. d, F and state hold the last iterate.
  */
 #define SIGNORINI_STATUS_NO_EQUILIBRIUM 4
-/**
- * The method cannot go on: best iterate. With SIGNORINI_METHOD_AUTO no method found a solution or
- * a proof that there is none.
- */
+/** The method, or each that AUTO tries, cannot go on; nothing is proved: best iterate. */
 #define SIGNORINI_STATUS_STALLED 5
 #define SIGNORINI_STATUS_NOT_A_SOLUTION 6  /**< Certify: the displacements are no solution. */
 /** Prove: no solution is proved to exist; there may be one. */
@@ -189,7 +177,7 @@ const char *signorini_last_error(void);
 #define SIGNORINI_STATUS_OUT_OF_MEMORY -1001
 #define SIGNORINI_STATUS_FILE -1002        /**< A file cannot be read or written. */
 
-/** Static text that describes any status, such as "solved"; never NULL. */
+/** Static text for any status, such as "solved"; never NULL. */
 const char *signorini_status_string(int32_t status);
 
 /* ============================================================================================
@@ -227,9 +215,9 @@ struct signorini_sparse {
     const void *row;      /**< Row of each entry, ascending in each column. */
     const double *values; /**< The entries; a stiffness: force / length. */
     /**
-     * Order of elimination, size entries: each degree of freedom once, the first to be eliminated
-     * first. NULL: chosen. The places of fixed ones and slaves do not matter; those with the same
-     * neighbours, as of one node, go together. Not read for a flexibility, nor in full space.
+     * Each degree of freedom once, in the order of elimination, size entries. NULL: chosen. The
+     * places of fixed ones and slaves do not matter; those with the same neighbours, as of one
+     * node, go together. Not read for a flexibility, nor in full space.
      */
     const void *order;
 };
@@ -251,8 +239,7 @@ struct signorini_equations {
 
 /**
  * Contact pairs: each has a slave node, a point that faces it, and a normal. The point is
- * interpolated between master nodes on other bodies; without masters it is on a rigid obstacle.
- * The gap is closed at d_n = gap:
+ * interpolated between master nodes on other bodies; without masters it is on a rigid obstacle:
  *     u_slave = sum of weight * u_master + n d_n + t d_t      (3D: + t1 d_t1 + t2 d_t2)
  *
  * General rows, as of mortar methods: slaves, master_start, masters and weights are NULL, and
@@ -296,27 +283,22 @@ struct signorini_pairs {
     const signorini_equations *equations; /**< NULL: none. */
 };
 
-/**
- * A structure reduced to its contact pairs, for all load cases. It does not change: several
- * threads may use one at once (but see SIGNORINI_START_PREVIOUS).
- */
+/** A structure reduced to its contact pairs, for all load cases. */
 typedef struct signorini_model signorini_model;
 
 /**
  * Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
- * and contact zones. Contact alone may support a body. H = K->size.
+ * and contact zones. H = K->size.
  *
  * If the condensed matrix needs more than memory_limit, or than the system has, the model is in
- * full space (data.kind): load cases are solved by Newton's method with GMRES on a sparse factor,
- * made a few times in each, methods AUTO and NEWTON alone; search and settings.proof are refused.
- * Dependent pairs are condensed.
+ * full space (data.kind): load cases are solved by Newton's method; methods other than AUTO and
+ * NEWTON, search and settings.proof are refused. Dependent pairs are condensed.
  *
  * @param K         the stiffness of all degrees of freedom, the fixed ones too
- * @param n_fixed   number of fixed degrees of freedom
- * @param fixed     these degrees of freedom
+ * @param n_fixed,fixed  number of fixed degrees of freedom, and these
  * @param pairs     the contact pairs
  * @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
- *                  and full_space. Ordering asks the callback every 0.1 s (1e5 unknowns)
+ *                  and full_space
  * @param model     out: the model
  */
 int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, const int64_t *fixed,
@@ -327,8 +309,7 @@ int32_t signorini_model_new_sparse(const signorini_sparse *K, int64_t n_fixed, c
  * Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
  *
  * @param dim,pairs,K,ldk  as for signorini_solve
- * @param settings  NULL: the defaults. It reads progress, user, time_limit and memory_limit
- * @param model     out: the model
+ * @param settings,model   as for signorini_model_new_sparse; full_space has no effect
  */
 int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *K, int64_t ldk,
                                       const signorini_settings *settings, signorini_model **model);
@@ -338,53 +319,45 @@ int32_t signorini_model_new_condensed(int32_t dim, int64_t pairs, const double *
  * outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float; a motion
  * that neither resists is refused. Loads and displacements are [A; B], H = 2 N.
  *
- * @param dim,pairs  as for signorini_solve
+ * @param dim,pairs,settings,model  as for signorini_model_new_condensed
  * @param K_A,lda,K_B,ldb  stiffness of each body, as K and ldk for signorini_solve
- * @param settings   as for signorini_model_new_condensed
- * @param model      out: the model
  */
 int32_t signorini_model_new_two_body(int32_t dim, int64_t pairs, const double *K_A, int64_t lda,
                                      const double *K_B, int64_t ldb,
                                      const signorini_settings *settings, signorini_model **model);
 
 /**
- * Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact,
- * friction and signs stay. In load cases f holds q, the relative displacements without contact
- * forces, and F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular,
- * as with redundant pairs: then contact forces are not unique, and report.uniqueness is never
- * UNIQUE.
+ * Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction
+ * and signs stay. In load cases f holds q, the relative displacements without contact forces, and
+ * F the start if settings.warm_start is set; H = N. W may be singular, as with redundant pairs:
+ * then contact forces are not unique, and report.uniqueness is never UNIQUE.
  *
  * Codes with u = W r + q, where u_N >= 0 opens a contact and r_N >= 0 presses (FCLIB, Siconos,
  * most multibody codes), hand over -q; then u = -d and r = -F. Velocities and impulses may take
  * the places of displacements and forces.
  *
- * report.eta is relative to the larger of F and q, the latter turned into a force. If open
- * pairs move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
- * SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction
- * wedges bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose
- * forces grow.
+ * report.eta is relative to the larger of F and q, the latter turned into a force. If open pairs
+ * move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
+ * SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction wedges
+ * bodies, SIGNORINI_STATUS_STALLED follows, and the sentence names the pairs whose forces grow.
  *
- * @param dim,pairs  as for signorini_solve
- * @param W,ldw      flexibility, as K and ldk for signorini_solve; length / force; symmetric,
- *                   positive semi-definite, not zero. A row of zeros is a component that nothing
- *                   moves
- * @param model      out: the model
+ * @param dim,pairs,model  as for signorini_model_new_condensed
+ * @param W,ldw  flexibility, as K and ldk for signorini_solve, but length / force, and not zero. A
+ *               row of zeros is a component that nothing moves
  */
 int32_t signorini_model_new_flexibility(int32_t dim, int64_t pairs, const double *W, int64_t ldw,
                                         signorini_model **model);
 
 /**
  * Makes a model in flexibility form of a sparse matrix. Pairs that no entry of W ties to each
- * other are islands, such as heaps that do not touch, each solved as a dense problem of its own;
- * the largest decides the memory.
+ * other are islands, each solved as a dense problem of its own; the largest decides the memory.
  *
  * The status is that of the worst island; an island without equilibrium does not stop the others.
  * At a limit, or where the callback cancels, islands that are left keep the start. report.method,
  * omega and damping are those of the largest island with the status; counts are sums.
  *
- * @param dim,pairs  as for signorini_solve
- * @param W          W->size = N; rows of zeros need not be stored; stored zeros tie nothing
- * @param model      out: the model
+ * @param dim,pairs,model  as for signorini_model_new_condensed
+ * @param W  W->size = N; rows of zeros need not be stored; stored zeros tie nothing
  */
 int32_t signorini_model_new_flexibility_sparse(int32_t dim, int64_t pairs,
                                                const signorini_sparse *W, signorini_model **model);
@@ -424,7 +397,7 @@ struct signorini_model_data {
     const double *frames;
 };
 
-/** Fills data, whose struct_size you set. Its arrays live as long as the model. */
+/** Fills data. Its arrays live as long as the model. */
 int32_t signorini_model_view(const signorini_model *model, signorini_model_data *data);
 
 /* ============================================================================================
@@ -436,20 +409,15 @@ int32_t signorini_model_view(const signorini_model *model, signorini_model_data 
  * wrong or not solved does not stop the others. Only the status is written of a case that is
  * wrong, or had not begun when the callback cancelled.
  *
- * Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
- * that stay open: they cost less than one by one, and the last digits depend on the cases before.
+ * Many cases in one call share work: they cost less than one by one, and the last digits depend on
+ * the cases before.
  *
- * @param model        the model
- * @param cases        number of load cases, 0 allowed
+ * @param model,cases  the model; number of load cases, 0 allowed
  * @param f            your nodal loads, H a case
  * @param prescribed   values of the fixed degrees of freedom, in the order of fixed; NULL: zero
- * @param gap,law,friction,slip0,settings  as for signorini_solve
- * @param d            out: relative displacements, N a case; in: the starts if
- *                     settings->warm_start
- * @param F            out: contact forces, N a case
+ * @param gap,law,friction,slip0,settings,d,F,state,extra  as for signorini_solve
  * @param status       out: status of each case, -k for the k-th argument of this call; may be NULL
  * @param report       out: one a case, each with its struct_size set; may be NULL
- * @param state,extra  as for signorini_solve
  * @return 0: every case is solved; otherwise the status of the first that is not, which
  *         signorini_last_error names
  */
@@ -461,9 +429,8 @@ int32_t signorini_model_solve(const signorini_model *model, int64_t cases, const
                               const signorini_extra *extra);
 
 /**
- * Your displacements from the relative ones, a column for each case; many cases of a sparse
- * model in one call cost a fraction of as many calls. If u overflows in a case, those before it
- * may be written.
+ * Your displacements from the relative ones; many cases cost less in one call. If u overflows in a
+ * case, those before it may be written.
  *
  * @param model,cases,prescribed  as for signorini_model_solve
  * @param f  nodal loads, H a case; NULL: zero, as for a motion of escape
@@ -494,7 +461,7 @@ int32_t signorini_model_condensed_load(const signorini_model *model, const doubl
                                        const double *prescribed, double *load);
 
 /**
- * Measures relative displacements of any origin on a load case, as the library measures its own.
+ * Measures relative displacements of any origin on a load case.
  *
  * @param model,f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
  * @param tolerance     largest eta of a solution, 1e-15 to 0.1
@@ -517,12 +484,7 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 
 /* ---- How to solve -------------------------------------------------------------------------- */
 
-/**
- * The default: methods in turn, until one finds a solution. Without friction: block pivoting,
- * Lemke's method. With friction: Newton's method; then in 3D springs that are let go and the
- * path, in 2D the path, springs and Lemke's method; at last sweeps.
- */
-#define SIGNORINI_METHOD_AUTO 0
+#define SIGNORINI_METHOD_AUTO 0           /**< Methods in turn, until one finds a solution. */
 /** Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|. */
 #define SIGNORINI_METHOD_SOR_NESTED 1
 /** Sweeps that update the threshold after each pair; not for Tresca's law. */
@@ -531,13 +493,10 @@ int32_t signorini_model_certify(const signorini_model *model, const double *f,
 #define SIGNORINI_METHOD_LEMKE 3
 #define SIGNORINI_METHOD_BLOCK_PIVOTING 4 /**< Block principal pivoting, without friction. */
 #define SIGNORINI_METHOD_NEWTON 5         /**< Newton's method; it may fail. */
-/**
- * With friction: a path of solutions that ends at one of the problem. It exists if K is
- * definite.
- */
+/** With friction: a path that ends at a solution; it exists if K is definite. */
 #define SIGNORINI_METHOD_PATH 6
 
-/** Report only what the solution itself proves about other solutions. The default. */
+/** Report only what the solution itself proves about other solutions. */
 #define SIGNORINI_SEARCH_OFF 0
 /** Prove that the solution is unique, or look for a second one. It costs several solutions. */
 #define SIGNORINI_SEARCH_OTHERS 1
@@ -563,10 +522,7 @@ struct signorini_progress {
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);
 
-/**
- * Fill it by signorini_settings_default(), then change what you like. The library only reads it:
- * several threads may use one.
- */
+/** Fill it by signorini_settings_default(), then change what you like. */
 struct signorini_settings {
     uint32_t struct_size;           /**< sizeof(signorini_settings). */
     int32_t method;                 /**< SIGNORINI_METHOD_...; default SIGNORINI_METHOD_AUTO. */
@@ -581,8 +537,8 @@ struct signorini_settings {
      */
     double time_limit;
     /**
-     * Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
-     * d = 0, block pivoting from all pairs closed. Lemke's method has no start.
+     * Nonzero: start from what d holds, block pivoting from its states. Default 0: start from d =
+     * 0, block pivoting from all pairs closed. Lemke's method has no start.
      * SIGNORINI_START_PREVIOUS: from the case before.
      */
     int32_t warm_start;
@@ -597,20 +553,19 @@ struct signorini_settings {
     int32_t reserved;               /**< 0. */
     /** Most bytes that a solution, or making a model, may need; default 0: no limit. */
     int64_t memory_limit;
-    /** Nonzero: signorini_model_new_sparse always makes a model in full space; default 0. */
-    int32_t full_space;
+    int32_t full_space; /**< Nonzero: a sparse model is always in full space; default 0. */
     /**
      * Most threads of a call, at most one a processor; default 1; 0 stands for 1. They end before
      * the call does, and get no signals. If the system refuses memory to a thread that begins, the
      * process may end.
      *
-     * signorini_model_solve, several cases: each thread solves a part of them, and takes
+     * Several cases of signorini_model_solve: each thread solves a part of them, and takes
      * signorini_model_data.memory, to which memory_limit applies. The same number gives the same
      * bits.
      *
      * One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 share large
-     * factorisations and products, also of sweeps. Any number gives the same bits. In those of a
-     * sparse matrix each takes 8 bytes an unknown and up to 1 MB.
+     * factorisations and products. Any number gives the same bits. In those of a sparse matrix
+     * each takes 8 bytes an unknown and up to 1 MB.
      */
     int32_t threads;
 };
@@ -620,9 +575,8 @@ int32_t signorini_settings_default(signorini_settings *settings, uint32_t struct
 
 /**
  * Most bytes that a call with n unknowns may take beside your arrays, with any method, law (ties:
- * 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call
- * that may need more than memory_limit is refused. Some MiB that each thread keeps are not
- * counted. -1 if n is negative.
+ * 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. Some MiB
+ * that each thread keeps are not counted. -1 if n is negative.
  */
 int64_t signorini_solve_memory(int64_t n);
 
@@ -632,7 +586,7 @@ int64_t signorini_solve_memory(int64_t n);
 #define SIGNORINI_UNIQUENESS_UNIQUE 1    /**< Proved: there is no other solution. */
 #define SIGNORINI_UNIQUENESS_SEVERAL 2   /**< There are others, by an estimate of errors. */
 
-/* Is a solution proved to exist? */
+/* Proof of a solution. */
 #define SIGNORINI_PROOF_NOT_ASKED 0 /**< settings.proof is 0. */
 /**
  * Proved: the problem (of a model: the condensed one) has a solution with these states, each
@@ -663,12 +617,12 @@ int64_t signorini_solve_memory(int64_t n);
 /** d rounded to doubles misses the tolerance, d + extra.d_low meets it. */
 #define SIGNORINI_REMARK_NEEDS_LOW_PART 16
 
-/** Static text that describes one remark, such as "every gap is negative"; never NULL. */
+/** Static text for one remark, such as "every gap is negative"; never NULL. */
 const char *signorini_remark_string(int32_t remark);
 
 /**
- * How good a result is, and how it was found. Set struct_size, or call signorini_report_default();
- * the call writes all other fields. K d - f is the contact force that d requires.
+ * How good a result is, and how it was found. Set struct_size; a call writes all other fields.
+ * K d - f is the contact force that d requires.
  */
 struct signorini_report {
     uint32_t struct_size;     /**< sizeof(signorini_report). */
@@ -706,7 +660,7 @@ struct signorini_report {
      * solution is unstable; if K is positive definite, at least two others exist.
      */
     int32_t orientation;
-    int32_t second;           /**< 1: a second solution was found, see extra; else 0. */
+    int32_t second;           /**< 1: a second solution was found; else 0. */
     /**
      * Largest error of a component of d over its largest component, no unit: proved with
      * SIGNORINI_PROOF_PROVED, else estimated from the last refinement; -1: not known.
@@ -723,16 +677,15 @@ int32_t signorini_report_default(signorini_report *report, uint32_t struct_size)
 /* ---- More results -------------------------------------------------------------------------- */
 
 /**
- * Further results: arrays of N entries, of cases a column for each. Fill it by
- * signorini_extra_default(), then set the pointers that you want.
+ * Further results: arrays of N entries, of cases a column for each. NULL, as
+ * signorini_extra_default() sets them: not wanted.
  */
 struct signorini_extra {
     uint32_t struct_size;  /**< sizeof(signorini_extra). */
     int32_t reserved;      /**< 0. */
     /**
      * With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1: K r = 0,
-     * and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs by mu
-     * times their slip, as no body does: to draw it, take escape. In flexibility form pressing
+     * and f . r + F . r > 0 for all forces F that the law admits. In flexibility form pressing
      * normal forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else
      * zeros.
      */
@@ -764,10 +717,10 @@ int32_t signorini_extra_default(signorini_extra *extra, uint32_t struct_size);
 /**
  * Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
  *
- * SIGNORINI_METHOD_AUTO is block principal pivoting, then Lemke's method (lexicographic). M
- * positive definite or a P-matrix: the problem is solved. M positive semi-definite or
- * copositive-plus: it is solved, or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM).
- * Any other M: the call may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
+ * With SIGNORINI_METHOD_AUTO the problem is solved if M is positive definite or a P-matrix, and
+ * solved or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM) if M is positive
+ * semi-definite or copositive-plus. With any other M the call may also end in a ray that proves
+ * nothing (SIGNORINI_STATUS_STALLED).
  *
  * @param n         number of unknowns, 0 allowed
  * @param M         any matrix, n columns of n entries
@@ -833,14 +786,101 @@ int32_t signorini_model_prove(const signorini_model *model, const double *f,
                               const double *friction, const double *slip0, const double *d,
                               const int32_t *state, double *F, double *radius_d, double *radius_F);
 
+/* ---- Products and solutions in the place of a matrix --------------------------------------- */
+
+typedef struct signorini_operator signorini_operator;
+
+/**
+ * Your product, y = K_rel x or y = W x, with N entries. Returns 0; another number ends the call of
+ * the library, whose sentence tells it. As a progress callback it must return, and not call this
+ * library.
+ */
+typedef int32_t (*signorini_product_fn)(void *user, const double *x, double *y);
+
+/**
+ * Your solution with components held: y is 0 where held is nonzero, and K_rel y = x in the other
+ * components; x counts only there. All have N entries. changed is 0 if the same components are
+ * held as in the call before on this model, and that call has not failed: then a factor may serve
+ * again. Returns as signorini_product_fn.
+ */
+typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t changed,
+                                     const double *x, double *y);
+
+/**
+ * Your preconditioner, with unknowns set: z near the solution of A z = r with components of d held
+ * and springs. No accuracy is asked, nor that it is linear or symmetric: one cycle of multigrid
+ * serves. held has N entries, nonzero where held; r and z do not count there. springs are to be
+ * added to A between the tangential components of each pair: force / length, one number for each
+ * pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is as
+ * in signorini_held_fn, for springs too. Returns as signorini_product_fn.
+ */
+typedef int32_t (*signorini_precondition_fn)(void *user, const int32_t *held, const double *springs,
+                                             int32_t changed, const double *r, double *z);
+
+/**
+ * Functions in the place of a matrix that lies on several processes or is never formed. K_rel is
+ * the K of signorini_solve.
+ */
+struct signorini_operator {
+    uint32_t struct_size;                   /**< sizeof(signorini_operator). */
+    int32_t dim;                            /**< Space dimension. */
+    int64_t pairs;                          /**< Number of pairs. */
+    /** y = K_rel x; symmetric, positive semi-definite; as exact as the tolerance asks for. */
+    signorini_product_fn stiffness;
+    /**
+     * y = W x, W close to the inverse of K_rel, symmetric, positive definite: a solution with the
+     * contact free. NULL: held is used alone.
+     */
+    signorini_product_fn inverse;
+    signorini_held_fn held; /**< In the place of W. May be NULL if inverse is given. */
+    /**
+     * Positive numbers of the size of the diagonal of K_rel, N; force / length. NULL: one for each
+     * direction, from products.
+     */
+    const double *units;
+    void *user;                             /**< First argument of the functions. */
+    /**
+     * 0: vectors have N entries, those of the pairs. Otherwise H, the number of all your unknowns,
+     * of which the components of d are some: then stiffness is y = A x on all of them, exact but
+     * for rounding; units is given, H; inverse and held are NULL.
+     */
+    int64_t unknowns;
+    /** With unknowns set: the unknown that is each component of d, from 0, N. */
+    const int64_t *place;
+    signorini_precondition_fn precondition; /**< With unknowns set. */
+    /**
+     * Without unknowns: what products and solutions agree to, relative to their sizes; no smaller
+     * tolerance can be met. 0: 1e-9.
+     */
+    double accuracy;
+};
+
+/**
+ * Makes a model of your functions. They run on the threads that call the library. Load cases are
+ * solved as in full space.
+ *
+ * With products and solutions of the pairs H = N: loads and displacements are the relative ones. A
+ * load case takes up to 160 products (2D: 110) with each of K_rel and W, or 70 solutions with
+ * held.
+ *
+ * With unknowns set A is symmetric, positive semi-definite, and takes the place of a sparse
+ * matrix: supports and the turn to the frames of the pairs are in it. A load case takes some 100
+ * preconditionings. No motion of a body that nothing holds is found. In eta the size of the loads
+ * is known to a thousandth.
+ *
+ * The call asks for some products, which must be finite, linear, symmetric, positive and the same
+ * each time, to 1e-9 or K->accuracy. Later calls return -1 if a function fails or gives a number
+ * that is not finite; the model can be used again.
+ *
+ * @param K      the functions; the structure is copied, with units and place
+ * @param model  out: the model
+ */
+int32_t signorini_model_new_operator(const signorini_operator *K, signorini_model **model);
+
 #endif /* SIGNORINI_UNSTABLE */
 
 #ifdef __cplusplus
 } /* extern "C" */
-#endif
-
-#ifdef SIGNORINI_UNSTABLE
-#include "signorini_operator.h"
 #endif
 
 #endif /* SIGNORINI_H */

@@ -24,8 +24,7 @@ fi
 
 module=$root/include/signorini.f90
 # Those that may still change too.
-headers="$root/include/signorini.h $root/include/signorini_operator.h \
-$root/include/signorini_surface.h $root/include/signorini_file.h"
+headers="$root/include/signorini.h $root/include/signorini_surface.h $root/include/signorini_file.h"
 # same WHAT: the lists wanted and given, of the headers and of the module, are equal.
 same() {
     [ -s "$work/wanted" ] || die "no $1 found in the headers"

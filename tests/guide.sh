@@ -13,7 +13,7 @@ export LC_ALL
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 work=$root/target/tests/guide
 guide=c_examples/guide
-headers="include/signorini.h include/signorini_operator.h include/signorini_surface.h include/signorini_file.h"
+headers="include/signorini.h include/signorini_surface.h include/signorini_file.h"
 python=${PYTHON:-python3}
 rm -rf "$work"
 mkdir -p "$work"

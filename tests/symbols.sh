@@ -41,8 +41,7 @@ code() {
             line = substr(line, begin + 2)
             inside = 1
         }
-    }' "$headers"/signorini.h "$headers"/signorini_operator.h "$headers"/signorini_surface.h \
-        "$headers"/signorini_file.h
+    }' "$headers"/signorini.h "$headers"/signorini_surface.h "$headers"/signorini_file.h
 }
 declared=$(code | grep -o 'signorini_[a-z0-9_]*(' | tr -d '(' | sort -u)
 [ -n "$declared" ] || fail "no function found in $header"

@@ -10,8 +10,7 @@ set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
 set(bindir "${CMAKE_INSTALL_BINDIR}")
 
 install(FILES "${root}/include/signorini.h" "${root}/include/signorini_file.h"
-    "${root}/include/signorini_surface.h" "${root}/include/signorini_operator.h"
-    DESTINATION "${includedir}")
+    "${root}/include/signorini_surface.h" DESTINATION "${includedir}")
 install(FILES "${root}/include/signorini.f90" "${root}/include/signorini.inc"
     DESTINATION "${includedir}")
 install(FILES "${static}" DESTINATION "${libdir}")

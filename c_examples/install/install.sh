@@ -107,7 +107,7 @@ install -d "$to/include" "$to/$libdir/pkgconfig" "$to/$package" "$to/share/doc/s
 install -m 644 "$root/LICENSE-MIT" "$root/LICENSE-APACHE" "$root/LICENSE-THIRD-PARTY" "$to/share/doc/signorini"
 install -m 644 "$examples/install/signorini.7" "$to/share/man/man7"
 install -m 644 "$root/include/signorini.h" "$root/include/signorini_file.h" \
-    "$root/include/signorini_surface.h" "$root/include/signorini_operator.h" "$to/include"
+    "$root/include/signorini_surface.h" "$to/include"
 install -m 644 "$root/include/signorini.f90" "$root/include/signorini.inc" "$to/include"
 install -m 644 "$work/libsignorini.a" "$to/$libdir"
 install -m 755 "$root/target/release/$built" "$to/$libdir/$shared_name"

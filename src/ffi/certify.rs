@@ -15,7 +15,7 @@ use crate::error::Argument;
 use crate::law::State;
 use crate::settings::check_tolerance;
 
-/// Measures relative displacements of any origin on a load case, as the library measures its own.
+/// Measures relative displacements of any origin on a load case.
 ///
 /// @param model,f,prescribed,gap,law,friction,slip0  as for signorini_model_solve
 /// @param tolerance     largest eta of a solution, 1e-15 to 0.1

@@ -22,8 +22,7 @@ pub const SIGNORINI_LAW_COHESIVE: i32 = 3;
 pub const SIGNORINI_LAW_ORTHOTROPIC: i32 = 4;
 /// As SIGNORINI_LAW_ORTHOTROPIC, but the pair slips opposite to F_t (collinear rule).
 pub const SIGNORINI_LAW_ORTHOTROPIC_COLLINEAR: i32 = 5;
-/// A law for each pair. friction: (law, p1, p2, p3), the pair's law and its parameters,
-/// unused ones 0.
+/// A law for each pair. friction: (law, p1, p2, p3), its law and parameters, unused ones 0.
 pub const SIGNORINI_LAW_BY_PAIR: i32 = 6;
 /// Tied: d_n = gap, d_t = slip0, whatever F; gap +inf: free.
 pub const SIGNORINI_LAW_TIED: i32 = 7;

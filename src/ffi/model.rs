@@ -12,8 +12,7 @@ use crate::error::Argument;
 use crate::model::{Model, ModelKind, Past};
 use crate::reduce::SolvedCase;
 
-/// A structure reduced to its contact pairs, for all load cases. It does not change: several
-/// threads may use one at once (but see SIGNORINI_START_PREVIOUS).
+/// A structure reduced to its contact pairs, for all load cases.
 pub struct SignoriniModel {
     pub(super) model: Model,
     /// The result that calls with SIGNORINI_START_PREVIOUS have left; nothing while one is at work.
@@ -90,7 +89,7 @@ pub struct SignoriniModelData {
     pub frames: *const f64,
 }
 
-/// Fills data, whose struct_size you set. Its arrays live as long as the model.
+/// Fills data. Its arrays live as long as the model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_view(
     model: *const SignoriniModel,
@@ -115,9 +114,8 @@ pub unsafe extern "C" fn signorini_model_view(
     })
 }
 
-/// Your displacements from the relative ones, a column for each case; many cases of a sparse
-/// model in one call cost a fraction of as many calls. If u overflows in a case, those before it
-/// may be written.
+/// Your displacements from the relative ones; many cases cost less in one call. If u overflows in a
+/// case, those before it may be written.
 ///
 /// @param model,cases,prescribed  as for signorini_model_solve
 /// @param f  nodal loads, H a case; NULL: zero, as for a motion of escape

@@ -17,8 +17,7 @@ use crate::reduce;
 /// Makes a model of a body that you have condensed, on a rigid obstacle: d = u, H = N.
 ///
 /// @param dim,pairs,K,ldk  as for signorini_solve
-/// @param settings  NULL: the defaults. It reads progress, user, time_limit and memory_limit
-/// @param model     out: the model
+/// @param settings,model   as for signorini_model_new_sparse; full_space has no effect
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_condensed(
     dim: i32,
@@ -50,10 +49,8 @@ fn of_matrices(wrong: Argument) -> i32 {
 /// outward frame: n_B = -n_A and t_B = -t_A, so that d = u_A + u_B. One body may float; a motion
 /// that neither resists is refused. Loads and displacements are [A; B], H = 2 N.
 ///
-/// @param dim,pairs  as for signorini_solve
+/// @param dim,pairs,settings,model  as for signorini_model_new_condensed
 /// @param K_A,lda,K_B,ldb  stiffness of each body, as K and ldk for signorini_solve
-/// @param settings   as for signorini_model_new_condensed
-/// @param model      out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_two_body(
     dim: i32,
@@ -79,19 +76,17 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
 }
 
 /// Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
-/// and contact zones. Contact alone may support a body. H = K->size.
+/// and contact zones. H = K->size.
 ///
 /// If the condensed matrix needs more than memory_limit, or than the system has, the model is in
-/// full space (data.kind): load cases are solved by Newton's method with GMRES on a sparse factor,
-/// made a few times in each, methods AUTO and NEWTON alone; search and settings.proof are refused.
-/// Dependent pairs are condensed.
+/// full space (data.kind): load cases are solved by Newton's method; methods other than AUTO and
+/// NEWTON, search and settings.proof are refused. Dependent pairs are condensed.
 ///
 /// @param K         the stiffness of all degrees of freedom, the fixed ones too
-/// @param n_fixed   number of fixed degrees of freedom
-/// @param fixed     these degrees of freedom
+/// @param n_fixed,fixed  number of fixed degrees of freedom, and these
 /// @param pairs     the contact pairs
 /// @param settings  NULL: the defaults. It reads progress, user, time_limit, memory_limit, threads
-///                  and full_space. Ordering asks the callback every 0.1 s (1e5 unknowns)
+///                  and full_space
 /// @param model     out: the model
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_sparse(
@@ -124,27 +119,23 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
     })
 }
 
-/// Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact,
-/// friction and signs stay. In load cases f holds q, the relative displacements without contact
-/// forces, and F the start if settings.warm_start is set; H = N. W = H M^-1 H' may be singular,
-/// as with redundant pairs: then contact forces are not unique, and report.uniqueness is never
-/// UNIQUE.
+/// Makes a model in flexibility form: d = W F + q takes the place of K d = f + F. Contact, friction
+/// and signs stay. In load cases f holds q, the relative displacements without contact forces, and
+/// F the start if settings.warm_start is set; H = N. W may be singular, as with redundant pairs:
+/// then contact forces are not unique, and report.uniqueness is never UNIQUE.
 ///
 /// Codes with u = W r + q, where u_N >= 0 opens a contact and r_N >= 0 presses (FCLIB, Siconos,
 /// most multibody codes), hand over -q; then u = -d and r = -F. Velocities and impulses may take
 /// the places of displacements and forces.
 ///
-/// report.eta is relative to the larger of F and q, the latter turned into a force. If open
-/// pairs move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
-/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction
-/// wedges bodies, the status is SIGNORINI_STATUS_STALLED, and the sentence names the pairs whose
-/// forces grow.
+/// report.eta is relative to the larger of F and q, the latter turned into a force. If open pairs
+/// move freely by far more than forces undo elsewhere, ask for a smaller tolerance.
+/// SIGNORINI_STATUS_NO_EQUILIBRIUM proves that the gaps contradict each other. If friction wedges
+/// bodies, SIGNORINI_STATUS_STALLED follows, and the sentence names the pairs whose forces grow.
 ///
-/// @param dim,pairs  as for signorini_solve
-/// @param W,ldw      flexibility, as K and ldk for signorini_solve; length / force; symmetric,
-///                   positive semi-definite, not zero. A row of zeros is a component that nothing
-///                   moves
-/// @param model      out: the model
+/// @param dim,pairs,model  as for signorini_model_new_condensed
+/// @param W,ldw  flexibility, as K and ldk for signorini_solve, but length / force, and not zero. A
+///               row of zeros is a component that nothing moves
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_flexibility(
     dim: i32,
@@ -163,16 +154,14 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
 }
 
 /// Makes a model in flexibility form of a sparse matrix. Pairs that no entry of W ties to each
-/// other are islands, such as heaps that do not touch, each solved as a dense problem of its own;
-/// the largest decides the memory.
+/// other are islands, each solved as a dense problem of its own; the largest decides the memory.
 ///
 /// The status is that of the worst island; an island without equilibrium does not stop the others.
 /// At a limit, or where the callback cancels, islands that are left keep the start. report.method,
 /// omega and damping are those of the largest island with the status; counts are sums.
 ///
-/// @param dim,pairs  as for signorini_solve
-/// @param W          W->size = N; rows of zeros need not be stored; stored zeros tie nothing
-/// @param model      out: the model
+/// @param dim,pairs,model  as for signorini_model_new_condensed
+/// @param W  W->size = N; rows of zeros need not be stored; stored zeros tie nothing
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
     dim: i32,

@@ -28,20 +28,15 @@ const START: i32 = 10;
 /// wrong or not solved does not stop the others. Only the status is written of a case that is
 /// wrong, or had not begun when the callback cancelled.
 ///
-/// Many cases in one call share condensed loads and, with friction in 3D, the elimination of pairs
-/// that stay open: they cost less than one by one, and the last digits depend on the cases before.
+/// Many cases in one call share work: they cost less than one by one, and the last digits depend on
+/// the cases before.
 ///
-/// @param model        the model
-/// @param cases        number of load cases, 0 allowed
+/// @param model,cases  the model; number of load cases, 0 allowed
 /// @param f            your nodal loads, H a case
 /// @param prescribed   values of the fixed degrees of freedom, in the order of fixed; NULL: zero
-/// @param gap,law,friction,slip0,settings  as for signorini_solve
-/// @param d            out: relative displacements, N a case; in: the starts if
-///                     settings->warm_start
-/// @param F            out: contact forces, N a case
+/// @param gap,law,friction,slip0,settings,d,F,state,extra  as for signorini_solve
 /// @param status       out: status of each case, -k for the k-th argument of this call; may be NULL
 /// @param report       out: one a case, each with its struct_size set; may be NULL
-/// @param state,extra  as for signorini_solve
 /// @return 0: every case is solved; otherwise the status of the first that is not, which
 ///         signorini_last_error names
 #[unsafe(no_mangle)]

@@ -36,9 +36,8 @@ pub type SignoriniHeldFn = Option<
 /// and springs. No accuracy is asked, nor that it is linear or symmetric: one cycle of multigrid
 /// serves. held has N entries, nonzero where held; r and z do not count there. springs are to be
 /// added to A between the tangential components of each pair: force / length, one number for each
-/// pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is 0
-/// if held and springs are those of the call before on this model, and that call has not failed.
-/// Returns as signorini_product_fn.
+/// pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is as
+/// in signorini_held_fn, for springs too. Returns as signorini_product_fn.
 pub type SignoriniPreconditionFn = Option<
     unsafe extern "C" fn(
         user: *mut c_void,
@@ -50,8 +49,8 @@ pub type SignoriniPreconditionFn = Option<
     ) -> i32,
 >;
 
-/// Functions in the place of a matrix, say of a code on several processes. K_rel is the K of
-/// signorini_solve.
+/// Functions in the place of a matrix that lies on several processes or is never formed. K_rel is
+/// the K of signorini_solve.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniOperator {
@@ -66,7 +65,7 @@ pub struct SignoriniOperator {
     /// y = W x, W close to the inverse of K_rel, symmetric, positive definite: a solution with the
     /// contact free. NULL: held is used alone.
     pub inverse: SignoriniProductFn,
-    /// A solution with components held, in the place of W. May be NULL if inverse is given.
+    /// In the place of W. May be NULL if inverse is given.
     pub held: SignoriniHeldFn,
     /// Positive numbers of the size of the diagonal of K_rel, N; force / length. NULL: one for each
     /// direction, from products.
@@ -81,8 +80,8 @@ pub struct SignoriniOperator {
     pub place: *const i64,
     /// With unknowns set.
     pub precondition: SignoriniPreconditionFn,
-    /// Of the pairs: what products and solutions agree to, relative to their sizes, as those of an
-    /// iterative solver: no smaller tolerance can be met. 0: 1e-9.
+    /// Without unknowns: what products and solutions agree to, relative to their sizes; no smaller
+    /// tolerance can be met. 0: 1e-9.
     pub accuracy: f64,
 }
 
@@ -170,19 +169,17 @@ impl PreconditionedOperator for Functions {
     }
 }
 
-/// Makes a model of your functions: no matrix is formed. They run on the threads that call the
-/// library.
+/// Makes a model of your functions. They run on the threads that call the library. Load cases are
+/// solved as in full space.
 ///
-/// With products and solutions of the pairs H = N: loads and displacements are the relative ones.
-/// Load cases are solved as in full space. They take up to 110 products with K_rel and as many with
-/// W in 2D, 160 in 3D; or with held up to 70 solutions, with 14 changes of the components that are
+/// With products and solutions of the pairs H = N: loads and displacements are the relative ones. A
+/// load case takes up to 160 products (2D: 110) with each of K_rel and W, or 70 solutions with
 /// held.
 ///
-/// With unknowns set A is symmetric, positive semi-definite, and takes the place of a sparse matrix:
-/// supports and the turn to the frames of the pairs are in it. Load cases are solved by Newton's
-/// method with FGMRES, in some 10 systems with some 10 preconditionings each. If Newton's method
-/// fails, problems with given thresholds of friction follow; no motion of a body that nothing holds
-/// is found. eta is measured by a product; the size of the loads beside it is known to a thousandth.
+/// With unknowns set A is symmetric, positive semi-definite, and takes the place of a sparse
+/// matrix: supports and the turn to the frames of the pairs are in it. A load case takes some 100
+/// preconditionings. No motion of a body that nothing holds is found. In eta the size of the loads
+/// is known to a thousandth.
 ///
 /// The call asks for some products, which must be finite, linear, symmetric, positive and the same
 /// each time, to 1e-9 or K->accuracy. Later calls return -1 if a function fails or gives a number

@@ -113,8 +113,8 @@ impl Outputs {
     }
 }
 
-/// Further results: arrays of N entries, of cases a column for each. Fill it by
-/// signorini_extra_default(), then set the pointers that you want.
+/// Further results: arrays of N entries, of cases a column for each. NULL, as
+/// signorini_extra_default() sets them: not wanted.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniExtra {
@@ -123,8 +123,7 @@ pub struct SignoriniExtra {
     /// 0.
     pub reserved: i32,
     /// With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1: K r = 0,
-    /// and f . r + F . r > 0 for all forces F that the law admits. It lifts slipping pairs by mu
-    /// times their slip, as no body does: to draw it, take escape. In flexibility form pressing
+    /// and f . r + F . r > 0 for all forces F that the law admits. In flexibility form pressing
     /// normal forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else
     /// zeros.
     pub motion: *mut f64,

@@ -9,8 +9,7 @@ use crate::problem;
 use crate::reduce::{ContactPairs, Equations};
 
 /// Contact pairs: each has a slave node, a point that faces it, and a normal. The point is
-/// interpolated between master nodes on other bodies; without masters it is on a rigid obstacle.
-/// The gap is closed at d_n = gap:
+/// interpolated between master nodes on other bodies; without masters it is on a rigid obstacle:
 ///     u_slave = sum of weight * u_master + n d_n + t d_t      (3D: + t1 d_t1 + t2 d_t2)
 ///
 /// General rows, as of mortar methods: slaves, master_start, masters and weights are NULL, and

@@ -56,8 +56,8 @@ pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
 /// d rounded to doubles misses the tolerance, d + extra.d_low meets it.
 pub const SIGNORINI_REMARK_NEEDS_LOW_PART: i32 = 16;
 
-/// How good a result is, and how it was found. Set struct_size, or call signorini_report_default();
-/// the call writes all other fields. K d - f is the contact force that d requires.
+/// How good a result is, and how it was found. Set struct_size; a call writes all other fields.
+/// K d - f is the contact force that d requires.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniReport {
@@ -107,7 +107,7 @@ pub struct SignoriniReport {
     /// Sign of the determinant of the equations that the states select; 0: not known. -1: the
     /// solution is unstable; if K is positive definite, at least two others exist.
     pub orientation: i32,
-    /// 1: a second solution was found, see extra; else 0.
+    /// 1: a second solution was found; else 0.
     pub second: i32,
     /// Largest error of a component of d over its largest component, no unit: proved with
     /// SIGNORINI_PROOF_PROVED, else estimated from the last refinement; -1: not known.
@@ -253,7 +253,7 @@ pub unsafe extern "C" fn signorini_report_default(
     c_entry!(|arrays| { arrays.at(1, "report").fill(report, struct_size) })
 }
 
-/// Static text that describes one remark, such as "every gap is negative"; never NULL.
+/// Static text for one remark, such as "every gap is negative"; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
     let text = match remark {

@@ -13,9 +13,7 @@ use super::threads;
 use crate::monitor::{Monitor, Progress, ProgressFn};
 use crate::settings::{Method, Search, Settings};
 
-/// The default: methods in turn, until one finds a solution. Without friction: block pivoting,
-/// Lemke's method. With friction: Newton's method; then in 3D springs that are let go and the
-/// path, in 2D the path, springs and Lemke's method; at last sweeps.
+/// Methods in turn, until one finds a solution.
 pub const SIGNORINI_METHOD_AUTO: i32 = 0;
 /// Projected over-relaxed Gauss-Seidel (SOR) on a sequence of Tresca problems, g <- mu |F_n|.
 pub const SIGNORINI_METHOD_SOR_NESTED: i32 = 1;
@@ -27,8 +25,7 @@ pub const SIGNORINI_METHOD_LEMKE: i32 = 3;
 pub const SIGNORINI_METHOD_BLOCK_PIVOTING: i32 = 4;
 /// Newton's method; it may fail.
 pub const SIGNORINI_METHOD_NEWTON: i32 = 5;
-/// With friction: a path of solutions that ends at one of the problem. It exists if K is
-/// definite.
+/// With friction: a path that ends at a solution; it exists if K is definite.
 pub const SIGNORINI_METHOD_PATH: i32 = 6;
 
 /// settings.warm_start of signorini_model_solve: each case starts from the solution of the last
@@ -39,7 +36,7 @@ pub const SIGNORINI_METHOD_PATH: i32 = 6;
 /// those that share a model may use it. Other calls take it as 0.
 pub const SIGNORINI_START_PREVIOUS: i32 = 2;
 
-/// Report only what the solution itself proves about other solutions. The default.
+/// Report only what the solution itself proves about other solutions.
 pub const SIGNORINI_SEARCH_OFF: i32 = 0;
 /// Prove that the solution is unique, or look for a second one. It costs several solutions.
 pub const SIGNORINI_SEARCH_OTHERS: i32 = 1;
@@ -66,8 +63,7 @@ pub struct SignoriniProgress {
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;
 
-/// Fill it by signorini_settings_default(), then change what you like. The library only reads it:
-/// several threads may use one.
+/// Fill it by signorini_settings_default(), then change what you like.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniSettings {
@@ -86,8 +82,8 @@ pub struct SignoriniSettings {
     /// Most seconds of wall time; 0, the default, and infinity: no limit. A factorisation that would
     /// take longer is not begun.
     pub time_limit: f64,
-    /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from
-    /// d = 0, block pivoting from all pairs closed. Lemke's method has no start.
+    /// Nonzero: start from what d holds, block pivoting from its states. Default 0: start from d =
+    /// 0, block pivoting from all pairs closed. Lemke's method has no start.
     /// SIGNORINI_START_PREVIOUS: from the case before.
     pub warm_start: i32,
     /// SIGNORINI_SEARCH_...; default SIGNORINI_SEARCH_OFF.
@@ -103,19 +99,19 @@ pub struct SignoriniSettings {
     pub reserved: i32,
     /// Most bytes that a solution, or making a model, may need; default 0: no limit.
     pub memory_limit: i64,
-    /// Nonzero: signorini_model_new_sparse always makes a model in full space; default 0.
+    /// Nonzero: a sparse model is always in full space; default 0.
     pub full_space: i32,
     /// Most threads of a call, at most one a processor; default 1; 0 stands for 1. They end before
     /// the call does, and get no signals. If the system refuses memory to a thread that begins, the
     /// process may end.
     ///
-    /// signorini_model_solve, several cases: each thread solves a part of them, and takes
+    /// Several cases of signorini_model_solve: each thread solves a part of them, and takes
     /// signorini_model_data.memory, to which memory_limit applies. The same number gives the same
     /// bits.
     ///
     /// One case, a callback, SIGNORINI_START_PREVIOUS, and other calls: at most 64 share large
-    /// factorisations and products, also of sweeps. Any number gives the same bits. In those of a
-    /// sparse matrix each takes 8 bytes an unknown and up to 1 MB.
+    /// factorisations and products. Any number gives the same bits. In those of a sparse matrix
+    /// each takes 8 bytes an unknown and up to 1 MB.
     pub threads: i32,
 }
 

@@ -21,8 +21,9 @@ use crate::solve::{Status, memory, memory_of_ties, solve, solve_lcp};
 /// @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
 ///                  symmetric to 1e-9 of the diagonal, positive semi-definite: signorini_solve
 ///                  checks a part of this, a model all. A row of zeros is a component that nothing
-///                  resists. If the body can move freely and touches at two or three points, use a
-///                  model
+///                  resists. A component that you hold fixed keeps its row: zero off the diagonal,
+///                  positive on it, zero load. If the body can move freely and touches at two or
+///                  three points, use a model
 /// @param ldk       entries from one column of K to the next, at least max(1, N)
 /// @param f         condensed nodal loads, N; force
 /// @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
@@ -35,7 +36,7 @@ use crate::solve::{Status, memory, memory_of_ties, solve, solve_lcp};
 /// @param F         out: contact forces, N. They obey the contact law; K d = f + F holds up to
 ///                  report->equilibrium
 /// @param state     out: SIGNORINI_STATE_... of each pair; may be NULL
-/// @param report    out: how good the result is; set report->struct_size before; may be NULL
+/// @param report    out: how good the result is; set its struct_size before; may be NULL
 /// @param extra     arrays for further results; may be NULL
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_solve(
@@ -88,9 +89,8 @@ pub unsafe extern "C" fn signorini_solve(
 }
 
 /// Most bytes that a call with n unknowns may take beside your arrays, with any method, law (ties:
-/// 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. A call
-/// that may need more than memory_limit is refused. Some MiB that each thread keeps are not
-/// counted. -1 if n is negative.
+/// 8 n n more) and setting: signorini_solve with n = dim * pairs, and signorini_lcp_solve. Some MiB
+/// that each thread keeps are not counted. -1 if n is negative.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
     let n = usize::try_from(n).ok();
@@ -99,10 +99,10 @@ pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
 
 /// Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
 ///
-/// SIGNORINI_METHOD_AUTO is block principal pivoting, then Lemke's method (lexicographic). M
-/// positive definite or a P-matrix: the problem is solved. M positive semi-definite or
-/// copositive-plus: it is solved, or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM).
-/// Any other M: the call may also end in a ray that proves nothing (SIGNORINI_STATUS_STALLED).
+/// With SIGNORINI_METHOD_AUTO the problem is solved if M is positive definite or a P-matrix, and
+/// solved or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM) if M is positive
+/// semi-definite or copositive-plus. With any other M the call may also end in a ray that proves
+/// nothing (SIGNORINI_STATUS_STALLED).
 ///
 /// @param n         number of unknowns, 0 allowed
 /// @param M         any matrix, n columns of n entries

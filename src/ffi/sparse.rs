@@ -40,9 +40,9 @@ pub struct SignoriniSparse {
     pub row: *const c_void,
     /// The entries; a stiffness: force / length.
     pub values: *const f64,
-    /// Order of elimination, size entries: each degree of freedom once, the first to be eliminated
-    /// first. NULL: chosen. The places of fixed ones and slaves do not matter; those with the same
-    /// neighbours, as of one node, go together. Not read for a flexibility, nor in full space.
+    /// Each degree of freedom once, in the order of elimination, size entries. NULL: chosen. The
+    /// places of fixed ones and slaves do not matter; those with the same neighbours, as of one
+    /// node, go together. Not read for a flexibility, nor in full space.
     pub order: *const c_void,
 }
 

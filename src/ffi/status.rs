@@ -10,7 +10,7 @@ use crate::error::Message;
 use crate::shortage::Shortage;
 use crate::solve::{Remarks, Solution, Status};
 
-/// Solved and certified: eta <= tolerance.
+/// Solved and certified.
 pub const SIGNORINI_STATUS_SOLVED: i32 = 0;
 /// max_iterations is used up: best iterate.
 pub const SIGNORINI_STATUS_ITERATION_LIMIT: i32 = 1;
@@ -21,8 +21,7 @@ pub const SIGNORINI_STATUS_CANCELLED: i32 = 3;
 /// Proved: no equilibrium exists (LCP: no w, z >= 0 satisfy w = q + M z). extra->motion (LCP: y) is
 /// the proof. d, F and state hold the last iterate.
 pub const SIGNORINI_STATUS_NO_EQUILIBRIUM: i32 = 4;
-/// The method cannot go on: best iterate. With SIGNORINI_METHOD_AUTO no method found a solution or
-/// a proof that there is none.
+/// The method, or each that AUTO tries, cannot go on; nothing is proved: best iterate.
 pub const SIGNORINI_STATUS_STALLED: i32 = 5;
 /// Certify: the displacements are no solution.
 pub const SIGNORINI_STATUS_NOT_A_SOLUTION: i32 = 6;
@@ -82,7 +81,7 @@ pub extern "C" fn signorini_abi_version() -> i32 {
 /// Statuses from this one to -1 are reserved for arguments.
 const LAST_ARGUMENT: i32 = -99;
 
-/// Static text that describes any status, such as "solved"; never NULL.
+/// Static text for any status, such as "solved"; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
     let text = match status {
@@ -164,8 +163,9 @@ pub(super) fn last_counted_from_one() -> String {
 }
 
 /// Says in one sentence what was wrong in the last call on this thread, such as "K[12,7] is not
-/// finite"; after a solution its remarks, else nothing. A call that releases leaves it. UTF-8,
-/// at most 511 bytes, never NULL. The text belongs to the thread, until its next call.
+/// finite" (row, column; entries count from 0); after a solution its remarks, else nothing. A call
+/// that releases leaves it. UTF-8, at most 511 bytes, never NULL. The text belongs to the thread,
+/// until its next call.
 #[unsafe(no_mangle)]
 pub extern "C" fn signorini_last_error() -> *const c_char {
     LAST.with_borrow(|[c, _]| c.text.as_ptr().cast())

@@ -21,7 +21,7 @@ from signorini._constants import Obstacle, Problem
 from signorini._sparse import Matrix
 
 CC, WORK = "cc", "."
-HEADERS = "signorini.h", "signorini_operator.h", "signorini_surface.h", "signorini_file.h"
+HEADERS = "signorini.h", "signorini_surface.h", "signorini_file.h"
 FAMILIES = (signorini.Status, signorini.State, signorini.Law, signorini.Method, signorini.Search,
             signorini.Uniqueness, signorini.Proof, signorini.Fallback, signorini.Remark,
             signorini.Triangle, signorini.ModelKind, signorini.Pairing, signorini.Normals, signorini.Rims,

@@ -1,6 +1,6 @@
 /*
  * Contact with friction in PETSc, on any number of processes, without a factor: the library runs on
- * process 0 and asks for products and for cycles of multigrid (signorini_operator.h). For each
+ * process 0 and asks for products and for cycles of multigrid (section 5 of signorini.h). For each
  * question process 0 sends a command, and the others, which wait in a loop, take their part in
  * the answer (multigrid.c). body.h has a drawing, and how the matrix is made.
  *

@@ -8,10 +8,8 @@
 #ifndef MULTIGRID_H
 #define MULTIGRID_H
 
+#define SIGNORINI_UNSTABLE /* for operators, which may still change; body.h includes signorini.h */
 #include "body.h"
-
-#define SIGNORINI_UNSTABLE /* for operators, which may still change */
-#include "signorini_operator.h"
 
 struct multigrid {
     const struct body *body;
