@@ -10,7 +10,6 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use super::columns::Columns;
-use super::matrix::tiles;
 use super::small_products::SMALL_PRODUCT;
 use super::vector::dot;
 use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns, filled};
@@ -153,12 +152,16 @@ pub fn schur_complement(
     lower: MatRef<'_, f64>,
     m: usize,
     coupling: impl Fn(usize, &mut [f64]) + Sync,
-    corner: impl Fn(usize, &mut [f64]),
+    corner: impl Fn(usize, &mut [f64]) + Sync,
     goes_on: GoesOn<'_>,
 ) -> Option<(Columns, Vec<f64>)> {
     let mut half = filled((m, lower.nrows()), coupling, goes_on)?;
     let mut schur = vec![0.0; m * m];
-    (0..m).for_each(|j| corner(j, &mut schur[m * j + j..m * (j + 1)]));
+    let blocks = schur.chunks_mut((m * BLOCK).max(1)).enumerate();
+    each(blocks, reading(m * m), |(block, columns)| {
+        let columns = columns.chunks_exact_mut(m).zip(BLOCK * block..);
+        columns.for_each(|(column, j)| corner(j, &mut column[j..]));
+    });
     let multiplications = (lower.nrows() * lower.nrows() * m) as f64 / 2.0;
     let rows = blocks_of_columns(half.as_mut().transpose_mut(), BLOCK);
     let divided =
@@ -171,13 +174,21 @@ pub fn schur_complement(
 
 /// Copies the lower triangle to the upper one.
 pub fn mirror(matrix: &mut [f64], size: usize) {
-    for (columns, rows) in tiles(size) {
-        for j in columns {
-            for i in rows.start.max(j + 1)..rows.end {
-                matrix[j + size * i] = matrix[i + size * j];
+    let columns = matrix.chunks_exact_mut(size.max(1)).enumerate();
+    let halves = columns.map(|(j, column)| column.split_at_mut(j));
+    let (mut above, from_diagonal): (Vec<_>, Vec<_>) = halves.unzip();
+    let from_diagonal: Vec<&[f64]> = from_diagonal.into_iter().map(|column| &*column).collect();
+    let blocks = above.chunks_mut(BLOCK).enumerate();
+    each(blocks, reading(size * size), |(block, above)| {
+        let first = BLOCK * block;
+        for rows in (0..first + above.len()).step_by(BLOCK) {
+            for (above, i) in above.iter_mut().zip(first..) {
+                for j in rows..i.min(rows + BLOCK) {
+                    above[j] = from_diagonal[j][i - j];
+                }
             }
         }
-    }
+    });
 }
 
 /// `target - Aᵀ B`, contiguous column-major matrices of `n` rows; `target` has a row for each

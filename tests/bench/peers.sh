@@ -75,6 +75,15 @@ OMP_NUM_THREADS=1
 export OPENBLAS_NUM_THREADS OMP_NUM_THREADS
 lapack=$(ldd "$build/peers" | sed -n 's/.*liblapack\.so\.3 => \([^ ]*\).*/\1/p')
 say "LAPACK of the peers: $(readlink -f "$lapack")"
+# OpenBLAS takes kernels of 2004 on a processor that is newer than it.
+if [ -z "${OPENBLAS_CORETYPE:-}" ] && OPENBLAS_VERBOSE=2 "$build/peers" 2>&1 | grep -q '^Core: Prescott'; then
+    case " $(sed -n 's/^flags.*: //p' /proc/cpuinfo | head -n 1) " in
+    *" avx512f "*) OPENBLAS_CORETYPE=SkylakeX ;;
+    *" avx2 "*) OPENBLAS_CORETYPE=Haswell ;;
+    esac
+    [ -z "${OPENBLAS_CORETYPE:-}" ] || export OPENBLAS_CORETYPE
+fi
+say "kernels of OpenBLAS: $(OPENBLAS_VERBOSE=2 "$build/peers" 2>&1 | sed -n 's/^Core: //p')"
 
 exec "$build/peers" "${SIGNORINI_PEERS_LEAST:-0}" "${SIGNORINI_PEERS_MOST:-2049}" \
     "${SIGNORINI_PEERS_SECONDS:-30}" "${SIGNORINI_PEERS_FAMILY:-all}" "$@"
