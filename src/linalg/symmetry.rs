@@ -1,127 +1,120 @@
-//! How far a square matrix is from a symmetric one, by square blocks: the rows of a block and the columns of the one across
-//! the diagonal are vectors of the processor.
+//! Is a square matrix symmetric? Its products with a vector from either side tell, in one pass over it.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::matrix::Matrix;
+use super::perturbation::Perturbation;
 use super::simd::vectorised;
 use super::watched::BLOCK;
 use crate::workers::{each, reading};
 
-/// Rows and columns of a square block that is compared with the one across the diagonal at once: a vector of doubles.
-const SIDE: usize = 4;
+/// Columns that are read in one pass, and rows of a vector of the processor.
+const AT_ONCE: usize = 4;
+const LANES: usize = 8;
 
-/// Tiles of a matrix of more rows are copied before they are compared: copies wait for memory once for a piece of a column,
-/// and comparisons once for a vector.
-const IN_CACHE: usize = 1024;
+/// Begins the numbers of the vector: any one does.
+const SEED: u64 = 1;
 
 impl Matrix<'_> {
-    /// `true` if each entry below the diagonal is of size `most` at most and differs by `apart` at most from the one
-    /// across it, both times `root[i] root[j]`; `most` may be infinite.
+    /// `true` if each entry is of size `most` at most and differs by `apart` at most from the one across the diagonal, both
+    /// times `root[i] root[j]`; `most` may be infinite. `false` may be said of such a matrix too, if its differences add up
+    /// to more.
+    ///
+    /// Seen are the sums of the differences of each row, each times a number of either sign between 1 and 2 without a
+    /// pattern: one difference that is too large makes a sum too large, and several do not cancel in all of their rows.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        let whole = self.size() - self.size() % SIDE;
-        let differ = AtomicBool::new(false);
-        let compare = |first: usize| {
-            let columns = first..whole.min(first + BLOCK);
-            let agree = vectorised(
-                #[inline(always)]
-                || self.blocks_agree(columns, whole, (root, apart, most)),
-            );
-            differ.fetch_or(!agree, Ordering::Relaxed);
+        let size = self.size();
+        let mut numbers = Perturbation::new(SEED);
+        let scaled = |root: &f64| {
+            let number = numbers.next();
+            (number + number.signum()) / if *root == 0.0 { 1.0 } else { *root }
         };
-        each((0..whole).step_by(BLOCK), reading(whole * whole), compare);
-        !differ.into_inner() && self.others_agree(root, apart, most)
+        let x: Vec<f64> = root.iter().map(scaled).collect();
+        let mut down = vec![0.0; size];
+        // Each block of columns has a product of its own, so that their sum does not depend on the threads.
+        let mut products = vec![0.0; size * size.div_ceil(BLOCK)];
+        let beyond = AtomicBool::new(false);
+        let blocks = products.chunks_mut(size.max(1)).zip(down.chunks_mut(BLOCK)).enumerate();
+        each(blocks, reading(size * size), |(block, (product, down))| {
+            let is_beyond = vectorised(
+                #[inline(always)]
+                || self.block_beyond(BLOCK * block, (&x, root), most, (product, down)),
+            );
+            beyond.fetch_or(is_beyond, Ordering::Relaxed);
+        });
+        // Written so that NaN does not agree.
+        let agrees = |i: usize| {
+            let across: f64 = products.iter().skip(i).step_by(size).sum();
+            (across - down[i]).abs() <= apart * root[i]
+        };
+        !beyond.into_inner() && (0..size).all(agrees)
     }
 
-    /// [`Self::agrees_across`] of the blocks of [`SIDE`] rows and columns that lie below the diagonal, in these columns and
-    /// the rows before `end`.
+    /// Adds the columns from `first` on, as many as `down` has, times their entries of `x` to `product`, and sets `down` to
+    /// their inner products with `x`. Returns `true` if one of their entries is of a size beyond `most root[i] root[j]`.
     #[inline(always)]
-    fn blocks_agree(
+    fn block_beyond(
         &self,
-        columns: Range<usize>,
-        end: usize,
-        (root, apart, most): (&[f64], f64, f64),
+        first: usize,
+        (x, root): (&[f64], &[f64]),
+        most: f64,
+        (product, down): (&mut [f64], &mut [f64]),
     ) -> bool {
-        let is_copied = self.size() > IN_CACHE;
-        let mut copies = vec![0.0; if is_copied { 2 * BLOCK * BLOCK } else { 0 }];
-        for first in (columns.start..end).step_by(BLOCK) {
-            let tile = first..end.min(first + BLOCK);
-            let (mut lower, mut upper, mut row, mut column) = (*self, *self, 0, 0);
-            if is_copied {
-                let (below, above) = copies.split_at_mut(BLOCK * BLOCK);
-                self.copy(&tile, &columns, below);
-                self.copy(&columns, &tile, above);
-                (lower, upper) =
-                    (Matrix::new(BLOCK, below, BLOCK), Matrix::new(BLOCK, above, BLOCK));
-                (row, column) = (first, columns.start);
-            }
-            for j in columns.clone().step_by(SIDE) {
-                let rows = first.max(j + SIDE)..tile.end;
-                if rows.is_empty() {
-                    continue;
-                }
-                let across = vector(root, j);
-                let lower: [&[f64]; SIDE] = std::array::from_fn(|c| {
-                    &lower.column(j + c - column)[rows.start - row..rows.end - row]
-                });
-                for (k, i) in rows.clone().enumerate().step_by(SIDE) {
-                    let below = lower.map(|column| vector(column, k));
-                    let above: [[f64; SIDE]; SIDE] =
-                        std::array::from_fn(|r| vector(upper.column(i + r - row), j - column));
-                    let down = vector(root, i);
-                    // A mark for each row: a loop over them is one of vectors.
-                    let mut marks = [0.0; SIDE];
-                    for c in 0..SIDE {
-                        for r in 0..SIDE {
-                            let scale = down[r] * across[c];
-                            let both = (below[c][r], above[r][c]);
-                            let agree = agree(both, apart * scale, most * scale);
-                            marks[r] = if agree { marks[r] } else { 1.0 };
-                        }
-                    }
-                    if marks != [0.0; SIDE] {
-                        return false;
-                    }
-                }
-            }
+        let mut is_beyond = false;
+        for (down, j) in down.chunks_mut(AT_ONCE).zip((first..).step_by(AT_ONCE)) {
+            // What is missing at the end is the last column once more, with the factor 0.
+            let place = |c: usize| j + c.min(down.len() - 1);
+            let columns: [&[f64]; AT_ONCE] = std::array::from_fn(|c| self.column(place(c)));
+            let factors = std::array::from_fn(|c| if c < down.len() { x[j + c] } else { 0.0 });
+            let limits = std::array::from_fn(|c| most * root[place(c)]);
+            let (sums, beyond) = pass(columns, (factors, limits), (x, root), product);
+            down.iter_mut().zip(sums).for_each(|(down, sum)| *down = sum);
+            is_beyond |= beyond;
         }
-        true
+        is_beyond
     }
+}
 
-    /// Copies the entries of some rows and columns to a tile.
-    #[inline(always)]
-    fn copy(&self, rows: &Range<usize>, columns: &Range<usize>, tile: &mut [f64]) {
-        for (tile, j) in tile.chunks_exact_mut(BLOCK).zip(columns.clone()) {
-            tile[..rows.len()].copy_from_slice(&self.column(j)[rows.clone()]);
-        }
-    }
-
-    /// [`Self::agrees_across`] of the other entries: beside the diagonal, and in the rows that fill no block.
-    #[inline(always)]
-    fn others_agree(&self, root: &[f64], apart: f64, most: f64) -> bool {
-        let whole = self.size() - self.size() % SIDE;
-        for i in 0..self.size() {
-            for j in if i < whole { i - i % SIDE } else { 0 }..i {
-                let scale = root[i] * root[j];
-                if !agree((self.at(i, j), self.at(j, i)), apart * scale, most * scale) {
-                    return false;
-                }
+/// Adds columns times their `factors` to `product`. Returns their inner products with `x`, and `true` if an entry is of a
+/// size beyond the limit of its column times the `root` of its row.
+#[inline(always)]
+fn pass(
+    columns: [&[f64]; AT_ONCE],
+    (factors, limits): ([f64; AT_ONCE], [f64; AT_ONCE]),
+    (x, root): (&[f64], &[f64]),
+    product: &mut [f64],
+) -> ([f64; AT_ONCE], bool) {
+    let (mut sums, mut marks) = ([[0.0; LANES]; AT_ONCE], [0.0; LANES]);
+    let size = product.len();
+    let whole = size - size % LANES;
+    for from in (0..whole).step_by(LANES) {
+        let (x, root, mut added) = (vector(x, from), vector(root, from), vector(product, from));
+        for c in 0..AT_ONCE {
+            let entries = vector(columns[c], from);
+            for l in 0..LANES {
+                added[l] = entries[l].mul_add(factors[c], added[l]);
+                sums[c][l] = entries[l].mul_add(x[l], sums[c][l]);
+                let is_beyond = entries[l].abs() > limits[c] * root[l];
+                marks[l] = if is_beyond { 1.0 } else { marks[l] };
             }
         }
-        true
+        product[from..from + LANES].copy_from_slice(&added);
     }
+    let mut is_beyond = marks != [0.0; LANES];
+    for i in whole..size {
+        for c in 0..AT_ONCE {
+            let entry = columns[c][i];
+            product[i] += entry * factors[c];
+            sums[c][0] += entry * x[i];
+            is_beyond |= entry.abs() > limits[c] * root[i];
+        }
+    }
+    (sums.map(|sums| sums.iter().sum()), is_beyond)
 }
 
 /// The numbers from `from` on.
 #[inline(always)]
-fn vector(values: &[f64], from: usize) -> [f64; SIDE] {
-    let values = &values[from..from + SIDE];
+fn vector(values: &[f64], from: usize) -> [f64; LANES] {
+    let values = &values[from..from + LANES];
     std::array::from_fn(|k| values[k])
-}
-
-/// `true` if an entry is of size `most` at most, and differs by `apart` at most from the one across the diagonal.
-#[inline(always)]
-fn agree((below, above): (f64, f64), apart: f64, most: f64) -> bool {
-    ((below - above).abs() <= apart) & !(below.abs() > most)
 }

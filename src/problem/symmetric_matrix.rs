@@ -15,6 +15,7 @@ pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
 /// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
 pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     matrix.agrees_across(root, AGREES, f64::INFINITY)
+        || across(matrix, root).all(|Across { apart, scale, .. }| apart <= AGREES * scale)
 }
 
 /// Roots of the diagonal entries, each with the rounding that a host's condensation leaves in the place of a zero, a part
@@ -41,7 +42,8 @@ pub(super) fn check_beside(
     root: &[f64],
     named: Named<'_>,
 ) -> Result<(), Error> {
-    // One pass over the matrix: entries that are not finite agree with nothing. The others find what is wrong where it is.
+    // One pass over the matrix: entries that are not finite agree with nothing. The others find what is wrong where it is,
+    // or that differences are many and small.
     if root.iter().all(|root| root.is_finite()) && matrix.agrees_across(root, AGREES, 1.0 + AGREES)
     {
         return Ok(());
@@ -50,25 +52,40 @@ pub(super) fn check_beside(
     check_across(matrix, root, named)
 }
 
+/// An entry below the diagonal: how far it is from the one across, and what the diagonal allows.
+struct Across {
+    place: (usize, usize),
+    apart: f64,
+    scale: f64,
+}
+
+/// The entries below the diagonal, by tiles.
+fn across(matrix: &Matrix<'_>, root: &[f64]) -> impl Iterator<Item = Across> {
+    let below = tiles(matrix.size()).flat_map(|(columns, rows)| {
+        columns.flat_map(move |j| (rows.start.max(j + 1)..rows.end).map(move |i| (i, j)))
+    });
+    below.map(|(i, j)| Across {
+        place: (i, j),
+        apart: (matrix.at(i, j) - matrix.at(j, i)).abs(),
+        scale: root[i] * root[j],
+    })
+}
+
 /// Refuses asymmetry beyond rounding and entries that a diagonal with these roots does not allow.
 fn check_across(
     matrix: &Matrix<'_>,
     root: &[f64],
     (name, argument): Named<'_>,
 ) -> Result<(), Error> {
-    let below = tiles(matrix.size()).flat_map(|(columns, rows)| {
-        columns.flat_map(move |j| (rows.start.max(j + 1)..rows.end).map(move |i| (i, j)))
-    });
-    for (i, j) in below {
-        let (lower, upper, scale) = (matrix.at(i, j), matrix.at(j, i), root[i] * root[j]);
-        let difference = (lower - upper).abs();
-        let message = if difference > AGREES * scale {
+    for Across { place: (i, j), apart, scale } in across(matrix, root) {
+        let (lower, upper) = (matrix.at(i, j), matrix.at(j, i));
+        let message = if apart > AGREES * scale {
             let (below, above) = (entry(name, [i, j]), entry(name, [j, i]));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
             format!(
                 "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
-                self::difference(difference / scale, &remedy)
+                difference(apart / scale, &remedy)
             )
         } else if lower.abs() > (1.0 + AGREES) * scale {
             beyond_diagonal(name, (i, j), lower, scale)

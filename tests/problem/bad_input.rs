@@ -156,6 +156,63 @@ fn refuses_wrong_parameters_of_a_law_that_has_three() {
     }
 }
 
+/// A difference across the diagonal of more than 1e-9 of what the diagonal allows is found wherever it is, beside many that
+/// are allowed too; 75 pairs fill no block of any size.
+#[test]
+fn one_difference_across_the_diagonal_is_found_among_many() {
+    const SIZE: usize = 150;
+    let zeros = [0.0; SIZE];
+    let root = |i: usize| 10_f64.powi(i as i32 % 5);
+    // Each column, scaled, has entries of .4 to the power of the distance: definite (Kac, Murdock and Szegö 1953).
+    let entry = |i: usize, j: usize| 0.4_f64.powi(i.abs_diff(j) as i32) * root(i) * root(j);
+    let matrix = |above: f64| -> Vec<f64> {
+        let shift = |i: usize, j: usize| if i < j { above * root(i) * root(j) } else { 0.0 };
+        (0..SIZE * SIZE)
+            .map(|k| (k % SIZE, k / SIZE))
+            .map(|(i, j)| entry(i, j) + shift(i, j))
+            .collect()
+    };
+    let checked = |k: &[f64]| {
+        let law = FrictionLaw::Frictionless;
+        let (load, gap) = (&zeros[..], &zeros[..SIZE / 2]);
+        let data = ContactData {
+            pairs: SIZE / 2,
+            stiffness: k,
+            ld: SIZE,
+            load,
+            gap,
+            law,
+            reference_slip: None,
+            ..GOOD
+        };
+        ContactProblem::new(data).err()
+    };
+    for many in [0.0, 0.5e-9, -0.9e-9] {
+        let k = matrix(many);
+        assert_eq!(checked(&k), None, "{many}");
+        for (i, j) in [(1, 0), (64, 63), (149, 0), (149, 148), (71, 8)] {
+            let with = |below: f64| {
+                let mut k = k.clone();
+                k[i + SIZE * j] += below * root(i) * root(j);
+                checked(&k)
+            };
+            assert_eq!(with(many - 0.9e-9), None, "{many}, K[{i},{j}]");
+            let parts = [format!("K[{i},{j}]"), format!("K[{j},{i}]"), "not symmetric".into()];
+            let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+            expect(with(many - 1.1e-9), Argument::Matrix, &parts);
+            let both = [(i, j), (j, i)].iter().fold(k.clone(), |mut k, &(i, j)| {
+                k[i + SIZE * j] = 1.1 * root(i) * root(j);
+                k
+            });
+            expect(
+                checked(&both),
+                Argument::Matrix,
+                &[&format!("K[{i},{j}]"), "positive semi-definite"],
+            );
+        }
+    }
+}
+
 #[test]
 fn refuses_matrices_that_no_structure_has() {
     let refuses_matrix = |entries: &[(usize, usize, f64)], parts: &[&str]| {
