@@ -1,7 +1,6 @@
 //! One way along the linear path, from piece to piece.
 
 use crate::law::{Linearised, Piece, PieceExit, Planar};
-use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::largest_of;
 use crate::monitor::Monitor;
 use crate::solve::pieces::{Equations, System, Updated, by_pairs};
@@ -49,8 +48,6 @@ pub struct Walk<'p> {
     y: Vec<f64>,
     rate: Vec<f64>,
     s: f64,
-    /// Changes of a piece so far.
-    pub events: u64,
     /// Factorisations so far.
     pub factorisations: u64,
 }
@@ -86,7 +83,6 @@ impl<'p> Walk<'p> {
             y: start.concat(),
             rate,
             s: 0.0,
-            events: 0,
             factorisations: 1,
         })
     }
@@ -139,34 +135,40 @@ impl<'p> Walk<'p> {
         rules: Rules,
         monitor: &mut Monitor<'_>,
     ) -> Result<(), Ending> {
-        self.events += 1;
-        let laws = &self.equations.laws;
-        let beyond =
-            |(pair, exit): (usize, PieceExit)| (pair, laws[pair].linearised_on(exit.beyond));
-        let change = [beyond((pair, *exit))];
-        if self.y.len() > IN_CACHE && self.system.lacks_columns(&change) {
-            let others =
-                self.exits(f64::from(self.system.sign())).filter(|(other, _)| *other != pair);
-            let mut likely: Vec<(usize, PieceExit)> = others.collect();
-            likely.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
-            likely.insert(0, (pair, *exit));
-            let likely: Vec<(usize, Linearised)> = likely.into_iter().map(beyond).collect();
-            let prepared = self.system.prepare(&likely, BLOCK, &mut monitor.asking());
-            prepared.ok_or(LOST)?;
+        let beyond = self.equations.laws[pair].linearised_on(exit.beyond);
+        if self.y.len() > IN_CACHE && self.system.lacks_columns(pair, &beyond) {
+            self.prepare((pair, beyond), monitor)?;
         }
-        let change = self.system.change(&change, &mut monitor.asking()).ok_or(LOST)?;
+        let change = self.system.change(pair, beyond, &mut monitor.asking()).ok_or(LOST)?;
         self.pieces[pair] = exit.beyond;
-        let singular = change.pivot().abs() < SMALL_PIVOT;
-        let ray = if singular { change.z.clone() } else { Vec::new() };
-        let made = self.system.make(change, &mut monitor.asking());
-        let made = made.map(|()| self.system.follow(&mut self.rate));
-        if singular && let Some(motion) = self.rigid(&ray, 1.0) {
+        let singular = change.pivot.abs() < SMALL_PIVOT;
+        if !singular {
+            self.system.make(change, &mut self.rate);
+        } else if let Some(motion) = self.rigid(&change.z, 1.0) {
             return Err(Ending::Recession(motion));
         }
-        if singular || made.is_none() || self.system.age() >= rules.age {
+        if singular || self.system.age() >= rules.age {
             self.refactorise(monitor)?;
         }
         Ok(())
+    }
+
+    /// Makes the columns of the change of a pair with those of the pairs that come to their boundaries next.
+    fn prepare(
+        &mut self,
+        first: (usize, Linearised),
+        monitor: &mut Monitor<'_>,
+    ) -> Result<(), Ending> {
+        let mut exits: Vec<(usize, PieceExit)> = self
+            .exits(f64::from(self.system.sign()))
+            .filter(|(pair, _)| *pair != first.0)
+            .collect();
+        exits.sort_by(|a, b| a.1.step.total_cmp(&b.1.step));
+        let laws = &self.equations.laws;
+        let others =
+            exits.into_iter().map(|(pair, exit)| (pair, laws[pair].linearised_on(exit.beyond)));
+        let likely: Vec<(usize, Linearised)> = std::iter::once(first).chain(others).collect();
+        self.system.prepare(&likely, BLOCK, &mut monitor.asking()).ok_or(LOST)
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
@@ -221,7 +223,7 @@ fn factorised<'p>(
     let pairs = equations.laws.iter().zip(pieces);
     let pairs: Vec<Linearised> = pairs.map(|(law, piece)| law.linearised_on(*piece)).collect();
     monitor.affords(System::work(equations, &pairs))?;
-    Updated::new(equations, pairs, SINGULAR_BASIS, &mut monitor.asking()).ok_or(LOST)
+    Updated::new(equations, pairs, &mut monitor.asking()).ok_or(LOST)
 }
 
 #[cfg(test)]
@@ -261,7 +263,8 @@ mod tests {
             assert_eq!(f64::from(walk.system.sign()), sign);
             let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
             assert_eq!(end, Ok(()), "from {start:?}");
-            assert_eq!(walk.events, events, "from {start:?}");
+            // A step to each event, and one to the end.
+            assert_eq!(monitor.iterations(), events + 1, "from {start:?}");
             let d = walk.displacements();
             assert!((d[0] + 1.0).abs() < 1e-14 && (d[1] - 1.0).abs() < 1e-14, "{d:?}");
         }
