@@ -2,8 +2,7 @@
 
 use super::remembered::Remembered;
 use crate::linalg::matrix::Matrix;
-use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of, norm, norm_of};
+use crate::linalg::vector::{norm, norm_of};
 
 /// `w = q + M x`, `x >= l`, `w >= 0`, `(x - l) . w = 0`; where a bound is `-inf` the variable is free
 /// and `w = 0`. A view of its arrays.
@@ -58,20 +57,6 @@ impl BoundedLcp<'_> {
             _ if scale.is_finite() => residual / scale,
             _ => f64::INFINITY,
         }
-    }
-
-    /// Returns `true` if the motion `r` of `x`, with a symmetric semi-definite `M`, proves that there is no
-    /// solution: `M r = 0`, `r >= 0` where there is a bound, and `q . r < 0`, while `w . r >= 0` for
-    /// every admissible `w`.
-    pub fn is_recession(&self, r: &[f64]) -> bool {
-        let root = self.matrix.diagonal_roots();
-        let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
-        let negligible = NEGLIGIBLE * size;
-        let resisted = self.matrix.product(r);
-        let is_free = resisted.iter().zip(&root).all(|(w, root)| w.abs() <= negligible * root);
-        let is_admissible = (0..r.len()).all(|i| self.is_free(i) || r[i] * root[i] >= -negligible);
-        let scale: f64 = self.q.iter().zip(&root).map(|(q, root)| size * (q / root).abs()).sum();
-        is_free && is_admissible && dot(self.q, r) < -LEAST_WORK * scale
     }
 
     /// Returns `true` if variable `i` is off its bound on the branch of `min(w, m (x - l))` that `x` and `w` are

@@ -7,7 +7,6 @@
 use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
 use crate::law::{Contact, lift};
-use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
@@ -48,23 +47,6 @@ impl DriftDetector {
     }
 }
 
-/// The part of a drift that the matrix does not resist; `None` if there is no time for a look.
-pub fn rigid_part(
-    matrix: Matrix<'_>,
-    unit: impl Fn(usize) -> f64,
-    drift: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Option<Vec<f64>> {
-    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    let block = FreeBlock::new(matrix, moved, unit, &mut monitor.asking())?;
-    let mut motion = vec![0.0; drift.len()];
-    for i in block.dependent() {
-        motion[i] = drift[i];
-    }
-    block.follow(&mut motion);
-    Some(motion)
-}
-
 /// A recession direction of a contact problem, from the drift of its displacements.
 ///
 /// A body that slides away drifts along the slip of its friction. Where that is the slip from which
@@ -75,8 +57,12 @@ pub fn contact_recession(
     drift: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Option<Vec<f64>> {
-    let problem = contact.problem();
-    let motion = rigid_part(problem.stiffness(), |i| problem.unit(i), drift, monitor)?;
+    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+    let block = FreeBlock::of_problem(contact.problem(), moved, &mut monitor.asking())?;
+    // The part of the drift that the matrix does not resist.
+    let mut motion = vec![0.0; drift.len()];
+    block.dependent().for_each(|i| motion[i] = drift[i]);
+    block.follow(&mut motion);
     let lifts = lifts(contact, &motion);
     // A slip together with a lift of each pair, which makes contact forces do no negative work on it. Off a plane it is
     // rigid if all are lifted by the same.

@@ -30,15 +30,11 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     }
     let (matrix, lower) = (Matrix::new(size, &entries, size.max(1)), vec![0.0; size]);
     let lcp = BoundedLcp { matrix, q: &q, lower: &lower, symmetric: true, remembered: None };
-    let iterate = LcpIterate::new(lcp, condensed.clearances(&call.start_or_zero()));
+    let iterate = LcpIterate::new(contact, lcp, condensed.clearances(&call.start_or_zero()));
     let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
     let mut target = settings.tolerance;
     loop {
-        let ending = match driver.solve(target) {
-            Ok(()) => Ending::Done,
-            Err(Ending::Recession(motion)) => Ending::Recession(condensed.motion(&motion)),
-            Err(other) => other,
-        };
+        let ending = driver.solve(target).err().unwrap_or(Ending::Done);
         let d = condensed.displacements(driver.iterate.unknowns());
         let mut candidate = Candidate::of_displacements(contact, d, ending);
         candidate.effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };

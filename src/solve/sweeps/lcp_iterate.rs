@@ -2,10 +2,11 @@
 
 use super::Iterate;
 use super::blocks::over_all;
-use super::drift::rigid_part;
+use crate::law::Contact;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
+use crate::solve::rigid::escape;
 
 /// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
 /// the change in the norm of the diagonal of `M`.
@@ -26,6 +27,8 @@ pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> 
 
 /// An iterate with its `w`.
 pub struct LcpIterate<'p> {
+    /// The contact problem whose clearances the variables are.
+    contact: &'p Contact<'p>,
     lcp: BoundedLcp<'p>,
     x: Vec<f64>,
     w: Vec<f64>,
@@ -33,12 +36,12 @@ pub struct LcpIterate<'p> {
 
 impl<'p> LcpIterate<'p> {
     /// Starts from `x`, made admissible.
-    pub fn new(lcp: BoundedLcp<'p>, mut x: Vec<f64>) -> Self {
+    pub fn new(contact: &'p Contact<'p>, lcp: BoundedLcp<'p>, mut x: Vec<f64>) -> Self {
         for (i, x) in x.iter_mut().enumerate() {
             *x = lcp.admissible(i, *x);
         }
         let w = lcp.w(&x);
-        LcpIterate { lcp, x, w }
+        LcpIterate { contact, lcp, x, w }
     }
 }
 
@@ -67,9 +70,8 @@ impl Iterate for LcpIterate<'_> {
         norm_inf(self.lcp.q) == 0.0
     }
 
-    fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
-        let matrix = self.lcp.matrix;
-        rigid_part(matrix, |i| matrix.at(i, i), drift, monitor)
-            .filter(|motion| self.lcp.is_recession(motion))
+    /// Without friction the balance of the rigid motions tells, whatever the drift is.
+    fn recession(&self, _drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+        escape(self.contact, monitor)
     }
 }

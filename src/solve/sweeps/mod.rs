@@ -42,6 +42,6 @@ pub trait Iterate {
     /// True if there are no loads.
     fn is_unloaded(&self) -> bool;
 
-    /// A recession direction, found in the change of the unknowns between two looks if there is time.
+    /// A recession direction of the displacements, found in the change of the unknowns between two looks if there is time.
     fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>>;
 }
