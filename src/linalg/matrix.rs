@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::ball::UNIT;
-use super::simd::{AT_ONCE, add_columns, add_sizes, add_twice, add_twice_and_sizes, vectorised};
+use super::simd::{AT_ONCE, add_columns, add_sizes, add_twice, vectorised};
 use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
 use super::vector::{largest_of, norm};
 use super::watched::BLOCK;
@@ -88,13 +88,7 @@ impl<'a> Matrix<'a> {
 
     /// The largest diagonal entry of each component's group, or `otherwise` if that is zero.
     pub fn units_of_groups(&self, group: usize, otherwise: f64) -> impl Iterator<Item = f64> {
-        let mut unit = otherwise;
-        (0..self.size).map(move |i| {
-            if i % group == 0 {
-                unit = self.unit_of_group(i, group, otherwise);
-            }
-            unit
-        })
+        (0..self.size).map(move |i| self.unit_of_group(i, group, otherwise))
     }
 
     /// The units of all components, [`Self::unit`]; those of a group that nothing resists are the largest
@@ -174,24 +168,7 @@ impl<'a> Matrix<'a> {
     /// above 2e307 it is not a number. After S. M. Rump, T. Ogita and S. Oishi, *Accurate floating-point
     /// summation, part I*, SIAM J. Sci. Comput. 31 (2008) 189-224.
     pub fn residual(&self, x: &[f64], x_low: &[f64], b: &[f64], terms: &[f64]) -> Vec<f64> {
-        let base = |i: usize| base_of_sum(terms[i] + b[i].abs());
-        let mut residual: Vec<f64> = (0..b.len()).map(|i| base(i) - b[i]).collect();
-        pieces([&mut residual], self.reading(), |first, [high]| {
-            let rows = first..first + high.len();
-            let lost = rows.clone().zip(&*high).map(|(i, high)| (base(i) - high) - b[i]);
-            let mut low: Vec<f64> = lost.collect();
-            self.by_columns(
-                (0, x),
-                rows.clone(),
-                #[inline(always)]
-                |x, columns| add_twice((&mut *high, &mut low), x, columns),
-            );
-            self.add_rows_of_product((0, x_low), rows.clone(), &mut low);
-            for (i, (high, low)) in rows.zip(high.iter_mut().zip(low)) {
-                *high = (*high - base(i)) + low;
-            }
-        });
-        residual
+        self.residual_on(terms, (x, x_low), b).0
     }
 
     /// [`Self::residual`] and its terms in one pass, where that is as good as two: off by `16 u² (n + 2)²` of
@@ -204,6 +181,23 @@ impl<'a> Matrix<'a> {
         let mut tops = self.diagonal_roots();
         let sum: f64 = tops.iter().zip(x).map(|(root, x)| root * x.abs()).sum();
         tops.iter_mut().for_each(|root| *root *= 2.0 * sum);
+        let (values, terms) = self.residual_on(&tops, (x, x_low), b);
+        let lost = (4.0 * UNIT * (x.len() + 2) as f64).powi(2);
+        let base = norm(&tops);
+        let are_above = terms.iter().zip(&tops).all(|(terms, top)| terms <= top);
+        if are_above && lost * (base + norm(b)) <= UNIT * norm(&values).max(norm(b)) {
+            return Residual { values, terms, base };
+        }
+        Residual { values: self.residual(x, x_low, b, &terms), base: norm(&terms), terms }
+    }
+
+    /// [`Self::residual`] on top of these bounds on its terms, with the terms.
+    fn residual_on(
+        &self,
+        tops: &[f64],
+        (x, x_low): (&[f64], &[f64]),
+        b: &[f64],
+    ) -> (Vec<f64>, Vec<f64>) {
         let base = |i: usize| base_of_sum(tops[i] + b[i].abs());
         let mut values: Vec<f64> = (0..b.len()).map(|i| base(i) - b[i]).collect();
         let lost = values.iter().enumerate().map(|(i, high)| (base(i) - high) - b[i]);
@@ -214,20 +208,14 @@ impl<'a> Matrix<'a> {
                 (0, x),
                 rows.clone(),
                 #[inline(always)]
-                |x, columns| add_twice_and_sizes([&mut *high, &mut *low, &mut *terms], x, columns),
+                |x, columns| add_twice([&mut *high, &mut *low, &mut *terms], x, columns),
             );
             self.add_rows_of_product((0, x_low), rows.clone(), low);
             for (i, (high, low)) in rows.zip(high.iter_mut().zip(low)) {
                 *high = (*high - base(i)) + *low;
             }
         });
-        let lost = (4.0 * UNIT * (x.len() + 2) as f64).powi(2);
-        let base = norm(&tops);
-        let are_above = terms.iter().zip(&tops).all(|(terms, top)| terms <= top);
-        if are_above && lost * (base + norm(b)) <= UNIT * norm(&values).max(norm(b)) {
-            return Residual { values, terms, base };
-        }
-        Residual { values: self.residual(x, x_low, b, &terms), base: norm(&terms), terms }
+        (values, terms)
     }
 
     /// Visits some rows of the columns with a factor that is not zero, in order and [`AT_ONCE`] at a time, with the widest

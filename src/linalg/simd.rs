@@ -67,36 +67,13 @@ pub fn add_sizes<const N: usize>(y: &mut [f64], a: [f64; N], x: [&[f64]; N]) {
 }
 
 /// `high + low += x a`, the columns in one pass: `high` takes of each product what is a multiple of its
-/// own last digit, without error as long as its exponent stays, and `low` the rest. To be called inside
-/// [`vectorised`].
+/// own last digit, without error as long as its exponent stays, and `low` the rest; and to `sizes` the absolute values of
+/// the products. To be called inside [`vectorised`].
 #[inline(always)]
-pub fn add_twice<const N: usize>(
-    (high, low): (&mut [f64], &mut [f64]),
-    a: [f64; N],
-    x: [&[f64]; N],
-) {
-    let x = x.map(|x| &x[..high.len()]);
-    for (i, (high, low)) in high.iter_mut().zip(low).enumerate() {
-        // Sums of their own stay in registers.
-        let mut sums = (*high, *low);
-        for (a, x) in a.iter().zip(x) {
-            let sum = a.mul_add(x[i], sums.0);
-            sums.1 += a.mul_add(x[i], sums.0 - sum);
-            sums.0 = sum;
-        }
-        (*high, *low) = sums;
-    }
-}
-
-/// [`add_twice`], and to `sizes` the absolute values of the products.
-#[inline(always)]
-pub fn add_twice_and_sizes<const N: usize>(
-    [high, low, sizes]: [&mut [f64]; 3],
-    a: [f64; N],
-    x: [&[f64]; N],
-) {
+pub fn add_twice<const N: usize>([high, low, sizes]: [&mut [f64]; 3], a: [f64; N], x: [&[f64]; N]) {
     let x = x.map(|x| &x[..high.len()]);
     for (i, ((high, low), size)) in high.iter_mut().zip(low).zip(sizes).enumerate() {
+        // Sums of their own stay in registers.
         let mut sums = (*high, *low, *size);
         for (a, x) in a.iter().zip(x) {
             let sum = a.mul_add(x[i], sums.0);
