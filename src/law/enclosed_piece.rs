@@ -27,6 +27,10 @@ use crate::linalg::ball::{Ball, BallVector, length, product_up, sum_of_parts, su
 use crate::linalg::double_double::two_sum;
 use crate::linalg::tolerances::FEW_OPERATIONS;
 
+/// The matrix that changes no tangential vector.
+const UNITY: Plane<Ball> =
+    [[Ball::exact(1.0), Ball::exact(0.0)], [Ball::exact(0.0), Ball::exact(1.0)]];
+
 /// The tangential part of an enclosed piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Along {
@@ -138,25 +142,24 @@ impl EnclosedPiece {
 
     /// The piece at `w`.
     pub fn local(&self, w: [Ball; 2]) -> Local {
-        let (one, zero) = (Ball::exact(1.0), Ball::default());
-        let unity = [[one, zero], [zero, one]];
         match self.along {
             Along::Stick => Local::default(),
-            Along::Free => Local { motion: unity, ..Local::default() },
+            Along::Free => Local { motion: UNITY, ..Local::default() },
             Along::Side(side) => {
-                Local { push: [Ball::exact(side), zero], motion: unity, ..Local::default() }
+                let push = [Ball::exact(side), Ball::exact(0.0)];
+                Local { push, motion: UNITY, ..Local::default() }
             }
             Along::Turning(unit) => {
                 let [forward, scale, _] = self.shape();
                 let reach = length(w);
                 let h = w.map(|w| w / reach);
-                let (mut turn, mut motion) = (unity, unity);
+                let (mut turn, mut motion) = (UNITY, UNITY);
                 for i in 0..2 {
                     for j in 0..2 {
-                        let across = unity[i][j] - h[i] * h[j];
+                        let across = UNITY[i][j] - h[i] * h[j];
                         turn[i][j] = across / reach;
                         // (1 - 1/|w|) + h hᵀ / |w|, without the cancellation of both.
-                        motion[i][j] = unity[i][j] - turn[i][j];
+                        motion[i][j] = UNITY[i][j] - turn[i][j];
                     }
                 }
                 let unit = Ball::exact(unit);
@@ -168,11 +171,7 @@ impl EnclosedPiece {
 
     /// `A`, `B` and `B⁻¹`.
     fn shape(&self) -> [Plane<Ball>; 3] {
-        let (one, zero) = (Ball::exact(1.0), Ball::default());
-        let Some(ellipse) = &self.law.ellipse else {
-            let unity = [[one, zero], [zero, one]];
-            return [unity; 3];
-        };
+        let Some(ellipse) = &self.law.ellipse else { return [UNITY; 3] };
         let disc = self.disc();
         let inverse = inverse(&disc);
         match ellipse.rule {
@@ -186,7 +185,7 @@ impl EnclosedPiece {
         let enclosed =
             |entry: f64| Ball::exact(entry).widened(product_up(FEW_OPERATIONS, entry.abs()));
         match &self.law.ellipse {
-            None => [[Ball::exact(1.0), Ball::default()], [Ball::default(), Ball::exact(1.0)]],
+            None => UNITY,
             Some(ellipse) => {
                 let columns = [ellipse.disc_of([1.0, 0.0]), ellipse.disc_of([0.0, 1.0])];
                 transposed(&columns).map(|row| row.map(enclosed))

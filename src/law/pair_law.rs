@@ -1,7 +1,7 @@
 //! The law of one pair with its numbers.
 
 use super::{Bound, Ellipse};
-use crate::linalg::double_double::two_sum;
+use crate::linalg::ball::Ball;
 
 /// A vector of a pair: normal and up to two tangential components.
 pub type Vector = [f64; 3];
@@ -97,13 +97,7 @@ impl PairLaw {
     /// `d - reference` for displacements `d + low` in two parts, `low` what rounding to doubles has left
     /// out of `d`: nothing is lost where `d` and the reference cancel.
     pub fn beyond_reference(&self, d: &[f64], low: &[f64]) -> Vector {
-        let reference = self.reference();
-        let mut v = [0.0; 3];
-        for c in 0..self.dim {
-            let (difference, lost) = two_sum(d[c], -reference[c]);
-            v[c] = difference + (lost + low[c]);
-        }
-        v
+        self.enclosed_beyond_reference(d, low).map(Ball::middle)
     }
 
     /// Copies the law for [`Self::beyond_reference`]: its gap and its reference slip are zero.

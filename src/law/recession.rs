@@ -119,11 +119,6 @@ impl PairLaw {
         }
         edge
     }
-
-    /// Returns `true` if the pair would have to pull more than its tension with the normal force `f_n - a`.
-    pub fn is_tensile(&self, shifted: f64) -> bool {
-        shifted > 0.0
-    }
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ impl Ball {
     }
 
     /// One double.
-    pub fn exact(middle: f64) -> Self {
+    pub const fn exact(middle: f64) -> Self {
         Ball { middle, radius: 0.0 }
     }
 

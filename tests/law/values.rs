@@ -357,13 +357,6 @@ fn only_coefficients_are_large_friction() {
     }
 }
 
-/// A normal force beside the tension pulls if it is positive.
-#[test]
-fn a_positive_normal_force_pulls() {
-    let law = PairLaw::new(2, 0.0, [0.0; 2], Bound { slope: 0.3, offset: 0.0 }, (1.0, 1.0));
-    assert!(law.is_tensile(1.0) && !law.is_tensile(-1.0) && !law.is_tensile(0.0));
-}
-
 /// Contact prescribes a displacement by a slip that has been, and by a gap that has closed: the largest of these lengths.
 #[test]
 fn contact_prescribes_closed_gaps_and_earlier_slips() {

@@ -224,7 +224,7 @@ fn the_search_leaves_other_lines_alone() {
         "fn gaps(gap: &[f64]) -> Vec<f64> { gap.to_vec() }",
         "let motion: Vec<f64> = force.iter().map(|f| -f).collect();",
         "if force < ROUNDING * self.largest_force {}",
-        "let law = problem.law(); let is = law.is_tensile(force[i]);",
+        "let law = problem.law(); let is = law.touches(d[i]);",
         "if eta < best.eta { best.force.clone_from(&force); }",
         "let count = certificate.count(state);",
         "if law.has_obstacle() { normal.push(i) }",
