@@ -8,7 +8,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::{MatMut, MatRef};
 
 use super::entries::Entries;
-use super::parallel::{Done, ROWS};
+use super::parallel::ROWS;
 use super::schedule::{Change, Schedule};
 use super::structure::Structure;
 use crate::linalg::dense::{self, subtract_products};
@@ -31,7 +31,6 @@ pub struct Source<'a> {
     pub structure: &'a Structure,
     pub schedule: &'a Schedule,
     pub entries: &'a Entries,
-    pub done: &'a Done,
 }
 
 /// Values of panels from one on, up to the one that is made.
@@ -44,36 +43,34 @@ pub struct Before<'a> {
 
 /// A panel in the making.
 pub struct Panel<'a> {
-    pub source: Source<'a>,
-    pub number: usize,
-    pub before: Before<'a>,
+    source: Source<'a>,
+    number: usize,
+    before: Before<'a>,
     /// Where each of its rows stands in it.
-    pub place: &'a [usize],
+    place: &'a [usize],
 }
 
-/// Writes the entries of the matrix into a panel, and the places of its rows.
-pub fn fill(source: Source<'_>, number: usize, place: &mut [usize], values: &mut [f64]) {
-    let (columns, rows) = (source.structure.columns(number), source.structure.rows(number));
-    let stride = columns.len() + rows.len();
-    columns.clone().chain(rows.iter().copied()).enumerate().for_each(|(k, row)| place[row] = k);
-    for (k, j) in columns.enumerate() {
-        for (row, value) in source.entries.of(j) {
-            values[place[row] + stride * k] += value;
+impl<'a> Panel<'a> {
+    /// A panel with the entries of the matrix in its values; `place` becomes the places of its rows.
+    pub fn filled(
+        source: Source<'a>,
+        number: usize,
+        before: Before<'a>,
+        place: &'a mut [usize],
+        values: &mut [f64],
+    ) -> Self {
+        let (columns, rows) = (source.structure.columns(number), source.structure.rows(number));
+        let stride = columns.len() + rows.len();
+        let all = columns.clone().chain(rows.iter().copied());
+        all.enumerate().for_each(|(k, row)| place[row] = k);
+        for (k, j) in columns.enumerate() {
+            for (row, value) in source.entries.of(j) {
+                values[place[row] + stride * k] += value;
+            }
         }
+        Panel { source, number, before, place }
     }
-}
 
-/// The weakest pivot of a panel that is made.
-pub fn weakest(source: Source<'_>, number: usize, values: &[f64]) -> Weakest {
-    let columns = source.structure.columns(number);
-    let stride = columns.len() + source.structure.rows(number).len();
-    columns.enumerate().fold(None, |weakest, (k, j)| {
-        let pivot = values[k + stride * k].powi(2) / source.entries.diagonal(j);
-        weaker(weakest, Some((j, pivot)))
-    })
-}
-
-impl Panel<'_> {
     /// The diagonal block, and the rows below it.
     pub fn divided<'v>(&self, values: &'v mut [f64]) -> (MatMut<'v, f64>, MatMut<'v, f64>) {
         let (width, rows) = (self.width(), self.rows().len());
@@ -125,10 +122,8 @@ impl Panel<'_> {
             let place = |k: usize| self.place[columns[k]];
             let each = chain.iter().map(|change| {
                 let l = self.earlier(change.by).1.subrows(change.first, count);
-                self.source.done.add(l.ncols() * count * count / 2);
-                l
+                (l, l)
             });
-            let each = each.map(|l| (l, l));
             subtract_products(top.as_mut(), each, (count, place), (count, place), true, product);
         }
     }
@@ -159,7 +154,6 @@ impl Panel<'_> {
             }
             let each = chain.iter().map(|change| {
                 let l = self.earlier(change.by).1;
-                self.source.done.add(l.ncols() * count * width);
                 (l.subrows(change.end + begin, count), l.subrows(change.first, width))
             });
             let column = |k: usize| self.place[columns[k]];
@@ -169,17 +163,16 @@ impl Panel<'_> {
         }
     }
 
-    /// Factorises the diagonal block. Returns the place of a pivot that is not positive.
-    pub fn eliminate(&self, top: MatMut<'_, f64>, memory: &mut MemBuffer) -> Result<(), usize> {
-        let width = self.width();
-        self.source.done.add(width * width * width / 3);
-        let first = self.source.structure.columns(self.number).start;
-        dense::root(top, MemStack::new(memory)).map_err(|column| first + column)
-    }
-
-    /// Divides a block of rows by the factor of the diagonal block.
-    pub fn divide(&self, top: MatRef<'_, f64>, block: MatMut<'_, f64>) {
-        self.source.done.add(top.ncols() * top.ncols() * block.nrows());
-        dense::divide(top, block);
+    /// Factorises the diagonal block and divides the rows below by its factor. Returns the weakest pivot, or the place of one
+    /// that is not positive.
+    pub fn eliminate(&self, values: &mut [f64], memory: &mut MemBuffer) -> Result<Weakest, usize> {
+        let (mut top, below) = self.divided(values);
+        let columns = self.source.structure.columns(self.number);
+        let root = dense::root(top.as_mut(), MemStack::new(memory));
+        root.map_err(|column| columns.start + column)?;
+        dense::divide(top.as_ref(), below);
+        let pivot = |k: usize, j: usize| top[(k, k)].powi(2) / self.source.entries.diagonal(j);
+        let pivots = columns.enumerate().map(|(k, j)| Some((j, pivot(k, j))));
+        Ok(pivots.fold(None, weaker))
     }
 }

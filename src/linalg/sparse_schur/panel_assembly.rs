@@ -1,9 +1,9 @@
-//! The values of a panel, assembled and eliminated by one thread or by several.
+//! The values of a panel, assembled by one thread or by several, and eliminated.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 use super::factor_progress::Failure;
-use super::panel::{Before, Panel, Source, Weakest, fill, weakest};
+use super::panel::{Before, Panel, Source, Weakest};
 use super::parallel::{Parallel, Workspace, locked};
 
 /// Makes a panel on the calling thread. Returns its weakest pivot, or the place of one that is not positive.
@@ -15,19 +15,14 @@ pub fn by_one_thread(
     workspace: &mut Workspace,
 ) -> Result<Weakest, usize> {
     let Workspace { place, product, memory } = workspace;
-    fill(source, number, place, values);
-    let panel = Panel { source, number, before, place };
+    let panel = Panel::filled(source, number, before, place, values);
     let (mut top, mut below) = panel.divided(values);
     panel.change_top(top.as_mut(), product);
     for rows in panel.blocks() {
         let block = below.as_mut().subrows_mut(rows.start, rows.len());
         panel.change_block(rows, block, product);
     }
-    panel.eliminate(top.as_mut(), memory)?;
-    for rows in panel.blocks() {
-        panel.divide(top.as_ref(), below.as_mut().subrows_mut(rows.start, rows.len()));
-    }
-    Ok(weakest(source, number, values))
+    panel.eliminate(values, memory)
 }
 
 /// Makes a panel on all threads, with the same bits. The entries of `place` are overwritten with the places of the
@@ -40,8 +35,7 @@ pub fn by_all_threads(
     place: &mut [usize],
     parallel: &mut Parallel<'_>,
 ) -> Result<Weakest, Failure> {
-    fill(source, number, place, values);
-    let panel = Panel { source, number, before, place };
+    let panel = Panel::filled(source, number, before, place, values);
     let (top, mut below) = panel.divided(values);
     let top = Mutex::new(top);
     let mut blocks = Vec::new();
@@ -58,13 +52,6 @@ pub fn by_all_threads(
             panel.change_block(rows.clone(), block.as_mut(), &mut workspace.product);
         }
     })?;
-    let mut top = top.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let eliminated = panel.eliminate(top.as_mut(), &mut parallel.own_workspace().memory);
-    eliminated.map_err(|place| Failure::Indefinite(source.structure.order[place]))?;
-    let (width, rows) = (top.ncols(), source.structure.rows(number).len());
-    parallel.share(blocks.len(), (width * width * rows) as f64, &|_, k| {
-        panel.divide(top.as_ref(), locked(&blocks[k]).1.as_mut());
-    })?;
-    drop(blocks);
-    Ok(weakest(source, number, values))
+    let eliminated = panel.eliminate(values, &mut parallel.own_workspace().memory);
+    eliminated.map_err(|place| Failure::Indefinite(source.structure.order[place]))
 }

@@ -1,6 +1,6 @@
-//! The parts of a factorisation on several threads, their working memory, its count of operations, and its progress.
+//! The parts of a factorisation on several threads, their working memory, and their progress.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use faer::dyn_stack::MemBuffer;
@@ -16,43 +16,32 @@ use crate::workers::{share, threads};
 /// Rows of a block: products of it are fast, and its changes stay in the cache.
 pub const ROWS: usize = 512;
 
-/// Multiplications that are done, by all threads.
-#[derive(Default)]
-pub struct Done(AtomicU64);
-
-impl Done {
-    /// So many more.
-    pub fn add(&self, operations: usize) {
-        self.0.fetch_add(operations as u64, Ordering::Relaxed);
-    }
-}
-
 /// The working memory of each thread, and the progress that they make together.
 pub struct Parallel<'w> {
     workspaces: Vec<Mutex<Workspace>>,
     progress: &'w mut FactorProgress<'w>,
-    done: &'w Done,
+    /// Multiplications of all works, of those that are done, and of those that were when `progress` was asked last.
     all: f64,
+    done: f64,
     asked: f64,
 }
 
 impl<'w> Parallel<'w> {
-    /// Working memory for `all` multiplications, counted in `done`.
+    /// Working memory for `all` multiplications.
     ///
     /// # Errors
     /// Not enough memory.
     pub fn new(
         structure: &Structure,
         progress: &'w mut FactorProgress<'w>,
-        done: &'w Done,
         all: f64,
     ) -> Result<Self, Failure> {
         let workspaces = (0..threads()).map(|_| Workspace::new(structure).map(Mutex::new));
         let workspaces = workspaces.collect::<Result<_, _>>()?;
-        Ok(Parallel { workspaces, progress, done, all: all.max(1.0), asked: 0.0 })
+        Ok(Parallel { workspaces, progress, all: all.max(1.0), done: 0.0, asked: 0.0 })
     }
 
-    /// Does the parts of a work of so many `operations`, each with the working memory of its thread.
+    /// Does the parts of a work of so many multiplications, each with the working memory of its thread.
     ///
     /// # Errors
     /// It was ended; parts may be missing.
@@ -62,18 +51,23 @@ impl<'w> Parallel<'w> {
         operations: f64,
         work: &(dyn Fn(&mut Workspace, usize) + Sync),
     ) -> Result<(), Failure> {
-        let Parallel { workspaces, progress, done, all, asked, .. } = self;
-        let mut answer = Ok(());
+        let Parallel { workspaces, progress, all, done, asked } = self;
+        let (begun, mut answer) = (AtomicUsize::new(0), Ok(()));
         let mut go_on = || {
-            let so_far = done.0.load(Ordering::Relaxed) as f64;
+            let share = begun.load(Ordering::Relaxed) as f64 / parts as f64;
+            let so_far = *done + share * operations;
             if so_far - *asked >= WORK as f64 {
                 *asked = so_far;
                 answer = progress(FactorStep::HasDone((so_far / *all).min(1.0)));
             }
             answer.is_ok()
         };
-        let work = |thread: usize, part: usize| work(&mut locked(&workspaces[thread]), part);
+        let work = |thread: usize, part: usize| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            work(&mut locked(&workspaces[thread]), part);
+        };
         share(parts, operations, &work, &mut go_on);
+        *done += operations;
         Ok(answer?)
     }
 

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use faer::{MatMut, MatRef};
 
 use super::factor_progress::Failure;
-use super::parallel::{Done, Parallel, ROWS, locked};
+use super::parallel::{Parallel, ROWS, locked};
 use super::structure::{PANEL, Structure};
 use crate::linalg::dense::subtract_products;
 
@@ -50,7 +50,6 @@ pub fn subtract(
     structure: &Structure,
     values: &[f64],
     schur: &mut [f64],
-    done: &Done,
     parallel: &mut Parallel<'_>,
 ) -> Result<(), Failure> {
     let panels: Vec<KeptRows<'_>> =
@@ -64,7 +63,7 @@ pub fn subtract(
         let block = &mut *locked(&blocks[part]);
         for chain in &chains {
             if chain[0].reaches(&block.rows) && chain[0].reaches(&block.columns) {
-                block.change(chain, &mut workspace.product, done);
+                block.change(chain, &mut workspace.product);
             }
         }
     })
@@ -107,7 +106,7 @@ fn blocks<'a>(structure: &Structure, schur: &'a mut [f64]) -> Vec<Mutex<Triangle
 
 impl TriangleBlock<'_> {
     /// Subtracts the products of the rows of panels that have the same ones.
-    fn change(&mut self, chain: &[KeptRows<'_>], product: &mut [f64], done: &Done) {
+    fn change(&mut self, chain: &[KeptRows<'_>], product: &mut [f64]) {
         let (columns, _) = chain[0].within(&self.columns);
         let (rows, _) = chain[0].within(&self.rows);
         if columns.is_empty() || rows.is_empty() {
@@ -117,11 +116,8 @@ impl TriangleBlock<'_> {
         let on_diagonal = first_row == first_column;
         let row = |k: usize| rows[k] - first_row;
         let column = |k: usize| columns[k] - first_column;
-        let each = chain.iter().map(|kept| {
-            let operations = kept.l.ncols() * rows.len() * columns.len();
-            done.add(if on_diagonal { operations / 2 } else { operations });
-            (kept.within(&self.rows).1, kept.within(&self.columns).1)
-        });
+        let each =
+            chain.iter().map(|kept| (kept.within(&self.rows).1, kept.within(&self.columns).1));
         let (rows, columns) = ((rows.len(), row), (columns.len(), column));
         subtract_products(self.values.as_mut(), each, rows, columns, on_diagonal, product);
     }
