@@ -1,4 +1,4 @@
-//! Linear algebra: the only room that names faer, nalgebra, feral-scotch and the SIMD kernels.
+//! Linear algebra: the only room that names faer, nalgebra and the SIMD kernels.
 //! It knows nothing of mechanics.
 
 pub(crate) mod approximate_inverse;

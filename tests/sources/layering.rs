@@ -225,7 +225,6 @@ fn the_search_finds_cycles() {
 fn foreign_crates_and_unsafe_stay_in_their_rooms() {
     let homes = [
         ("faer", "linalg"),
-        ("feral_scotch", "linalg"),
         ("nalgebra", "linalg"),
         ("pulp", "linalg"),
         ("libc", "ffi"),

@@ -5,6 +5,7 @@
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::links::Links;
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 use crate::shortage;
 
@@ -12,10 +13,8 @@ use crate::shortage;
 pub struct Graph {
     /// Number of vertices that are eliminated.
     pub inner: usize,
-    /// Where the neighbours of each vertex begin.
-    start: Vec<usize>,
-    /// Neighbours, ascending, without the vertex itself.
-    neighbour: Vec<usize>,
+    /// Neighbours, without the vertex itself.
+    links: Links,
     /// Where the unknowns of each vertex begin.
     member_start: Vec<usize>,
     member: Vec<usize>,
@@ -56,22 +55,22 @@ impl Graph {
             neighbour[begin..].sort_unstable();
             start.push(neighbour.len());
         }
-        Ok(Graph { inner, start, neighbour, member_start, member })
+        Ok(Graph { inner, links: Links { start, neighbour }, member_start, member })
     }
 
     /// Number of vertices.
     pub fn vertices(&self) -> usize {
-        self.start.len() - 1
+        self.links.vertices()
     }
 
     /// Neighbours of a vertex, ascending.
-    pub fn neighbours(&self, vertex: usize) -> &[usize] {
-        &self.neighbour[self.start[vertex]..self.start[vertex + 1]]
+    pub fn neighbours(&self, vertex: usize) -> impl Iterator<Item = usize> {
+        self.links.neighbours(vertex)
     }
 
     /// Number of pairs of neighbours, each counted twice.
     pub fn entries(&self) -> usize {
-        self.neighbour.len()
+        self.links.neighbour.len()
     }
 
     /// Unknowns of a vertex, ascending.

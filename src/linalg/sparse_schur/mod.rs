@@ -10,6 +10,8 @@ mod dissection;
 mod entries;
 mod factor_progress;
 mod graph;
+mod links;
+mod minimum_degree;
 mod numeric;
 mod order;
 mod panel;

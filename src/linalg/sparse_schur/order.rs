@@ -5,15 +5,17 @@
 //! and the better of both. Or the order of the host.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::sparse::linalg::amd;
+use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::cholesky::simplicial::{
     EliminationTreeRef, prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
 };
-use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+use faer::sparse::linalg::qr::{postorder, postorder_scratch};
 
 use super::dissection::dissected;
 use super::factor_progress::{FactorProgress, FactorStep, Failure};
 use super::graph::{Graph, filled, reserved};
+use super::links::Links;
+use super::minimum_degree::minimum_degree;
 use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// Most vertices of the clique: of more, several are one. The clique has the square of it.
@@ -42,19 +44,20 @@ pub fn chosen(
         order.sort_by_key(first);
         return Ok(examined(graph, &order)?.0);
     }
-    let order = minimum_degree(graph)?;
+    let order = with_clique(graph)?;
     progress(FactorStep::HasDone(0.0))?;
     let (order, operations) = examined(graph, &order)?;
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }
-    let Some(dissected) = nested_dissection(graph, progress)? else { return Ok(order) };
+    let dissected = dissected(inner_links(graph), progress)?;
     progress(FactorStep::HasDone(0.0))?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
 }
 
-fn minimum_degree(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
+/// Minimum degree with the kept vertices made one clique.
+fn with_clique(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
     let (inner, kept) = (graph.inner, graph.vertices() - graph.inner);
     let share = kept.div_ceil(LARGEST_CLIQUE).max(1);
     let size = inner + kept.div_ceil(share);
@@ -62,61 +65,26 @@ fn minimum_degree(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
     let (mut start, mut row) = (reserved(size + 1)?, reserved(graph.entries())?);
     start.push(0);
     for v in 0..inner {
-        row.extend(graph.neighbours(v).iter().map(|&w| place(w)).filter(|&w| w > v));
+        row.extend(graph.neighbours(v).map(place).filter(|&w| w > v));
         start.push(row.len());
     }
     for k in inner..size {
         row.extend(k + 1..size);
         start.push(row.len());
     }
-    // Vertices that are one have their neighbours several times: sorted and told once by faer.
-    let pattern = SymbolicSparseColMatRef::new_unsorted_checked(size, size, &start, None, &row);
-    let control = amd::Control { dense: -1.0, ..Default::default() };
-    let scratch = amd::order_maybe_unsorted_scratch::<usize>(size, row.len());
-    let mut memory = MemBuffer::try_new(scratch).map_err(|_| OutOfMemory)?;
-    let (mut order, mut inverse) = (filled(size, 0)?, filled(size, 0)?);
-    let stack = MemStack::new(&mut memory);
-    amd::order_maybe_unsorted(&mut order, &mut inverse, pattern, control, stack)
-        .map_err(|_| OutOfMemory)?;
+    let mut order = minimum_degree(&start, &row)?;
     order.retain(|&v| v < inner);
     Ok(order)
 }
 
-/// `None` if it fails in any way: the other order serves.
-fn nested_dissection(
-    graph: &Graph,
-    progress: &mut FactorProgress<'_>,
-) -> Result<Option<Vec<usize>>, Failure> {
-    let Some((start, neighbour)) = inner_links(graph) else { return Ok(None) };
-    let order = dissected(start, neighbour, progress)?;
-    Ok(order.and_then(|order| permutation(&order, graph.inner)))
-}
-
-/// Where the neighbours of each inner vertex begin among those of all, and these, without kept vertices; `None` if
-/// there are too many.
-fn inner_links(graph: &Graph) -> Option<(Vec<i32>, Vec<i32>)> {
-    let number = |i: usize| i32::try_from(i).ok();
+/// The graph of the inner vertices.
+fn inner_links(graph: &Graph) -> Links {
     let (mut start, mut neighbour) = (vec![0], Vec::new());
     for v in 0..graph.inner {
-        for &w in graph.neighbours(v).iter().filter(|&&w| w < graph.inner) {
-            neighbour.push(number(w)?);
-        }
-        start.push(number(neighbour.len())?);
+        neighbour.extend(graph.neighbours(v).filter(|&w| w < graph.inner));
+        start.push(neighbour.len());
     }
-    Some((start, neighbour))
-}
-
-/// `order`, if it is one of `size` numbers.
-fn permutation(order: &[i32], size: usize) -> Option<Vec<usize>> {
-    let order: Option<Vec<usize>> = order.iter().map(|&v| usize::try_from(v).ok()).collect();
-    order.filter(|order| is_permutation(order, size))
-}
-
-/// `true` if `order` has each of the numbers below `size` once.
-fn is_permutation(order: &[usize], size: usize) -> bool {
-    let mut missing = vec![true; size];
-    let is_new = |&i: &usize| missing.get_mut(i).is_some_and(std::mem::take);
-    order.len() == size && order.iter().all(is_new)
+    Links { start, neighbour }
 }
 
 /// An order with the same fill in which the columns of each supernode stand together, and about how many
@@ -125,10 +93,12 @@ fn examined(graph: &Graph, order: &[usize]) -> Result<(Vec<usize>, f64), OutOfMe
     let pattern = pattern(graph, order)?;
     let unknowns: usize = (0..graph.inner).map(|v| graph.members(v).len()).sum();
     let size = unknowns as f64 / graph.inner.max(1) as f64;
-    of_tree(&pattern, StackReq::EMPTY, |tree, counts, _| {
+    let mut post = filled(graph.vertices(), 0)?;
+    of_tree(&pattern, postorder_scratch::<usize>(post.len()), |tree, counts, stack| {
         let squares = counts[..graph.inner].iter().map(|&count| (count as f64).powi(2));
-        let post = post_order(tree.into_inner(), graph.inner);
-        (post.into_iter().map(|k| order[k]).collect(), size.powi(3) * squares.sum::<f64>())
+        postorder(&mut post, tree, stack);
+        let inner = post.iter().filter_map(|&k| order.get(k).copied());
+        (inner.collect(), size.powi(3) * squares.sum::<f64>())
     })
 }
 
@@ -142,15 +112,14 @@ pub fn pattern(graph: &Graph, order: &[usize]) -> Result<Pattern, OutOfMemory> {
     for k in 0..size {
         let vertex = order.get(k).copied().unwrap_or(k);
         let begin = row.len();
-        row.extend(graph.neighbours(vertex).iter().map(|&w| place[w]).filter(|&w| w < k));
+        row.extend(graph.neighbours(vertex).map(|w| place[w]).filter(|&w| w < k));
         row[begin..].sort_unstable();
         start.push(row.len());
     }
     Ok(SymbolicSparseColMat::new_checked(size, size, start, None, row))
 }
 
-/// The answer of `ask` to the elimination tree, in which -1 is the parent of a root, and the length of each column of
-/// the factor; with room for `scratch`.
+/// The answer of `ask` to the elimination tree and the length of each column of the factor; with room for `scratch`.
 pub fn of_tree<T>(
     pattern: &Pattern,
     scratch: StackReq,
@@ -165,42 +134,9 @@ pub fn of_tree<T>(
     Ok(ask(tree, &counts, stack))
 }
 
-/// The first `inner` columns, each after those below it in the tree and right behind them.
-fn post_order(parent: &[isize], inner: usize) -> Vec<usize> {
-    let (mut first_child, mut sibling) = (vec![None; inner], vec![None; inner]);
-    let mut roots = Vec::new();
-    // Backwards, so that children stand in ascending order.
-    for k in (0..inner).rev() {
-        match usize::try_from(parent[k]) {
-            Ok(above) if above < inner => {
-                sibling[k] = first_child[above];
-                first_child[above] = Some(k);
-            }
-            _ => roots.push(k),
-        }
-    }
-    let (mut order, mut open) = (Vec::with_capacity(inner), roots);
-    while let Some(&k) = open.last() {
-        let (mut next, begin) = (first_child[k].take(), open.len());
-        while let Some(child) = next {
-            open.push(child);
-            next = sibling[child];
-        }
-        open[begin..].reverse();
-        if open.len() == begin {
-            open.pop();
-            order.push(k);
-        }
-    }
-    order
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{
-        chosen, examined, is_permutation, minimum_degree, nested_dissection, permutation,
-        post_order,
-    };
+    use super::{chosen, dissected, examined, inner_links, with_clique};
     use crate::linalg::sparse_matrix::{Csc, from_entries};
     use crate::linalg::sparse_schur::graph::Graph;
 
@@ -236,26 +172,14 @@ mod tests {
         for edge in [2, 5, 14] {
             let (matrix, eliminated) = cube(edge, 3);
             let graph = Graph::new(&matrix, eliminated, &mut |_| Ok(())).unwrap();
-            let (_, most) = examined(&graph, &minimum_degree(&graph).unwrap()).unwrap();
-            let order = chosen(&graph, None, &mut |_| Ok(())).unwrap();
-            assert!(is_permutation(&order, graph.inner));
-            assert!(nested_dissection(&graph, &mut |_| Ok(())).unwrap().is_some());
-            assert!(examined(&graph, &order).unwrap().1 <= most);
-        }
-    }
-
-    #[test]
-    fn children_stand_right_before_their_parents() {
-        // Columns 5 and 6 are kept; the trees are 0, 2 -> 4 and 1 -> 3.
-        let parent = [4, 3, 4, 5, 6, 6, -1];
-        assert_eq!(post_order(&parent, 5), [1, 3, 0, 2, 4]);
-    }
-
-    #[test]
-    fn what_is_no_permutation_is_not_taken() {
-        assert_eq!(permutation(&[2, 0, 1], 3), Some(vec![2, 0, 1]));
-        for wrong in [vec![0, 1], vec![0, 1, 1], vec![0, 1, 3], vec![0, 1, -1], vec![0, 1, 2, 3]] {
-            assert_eq!(permutation(&wrong, 3), None);
+            let (_, most) = examined(&graph, &with_clique(&graph).unwrap()).unwrap();
+            let chosen = chosen(&graph, None, &mut |_| Ok(())).unwrap();
+            assert!(examined(&graph, &chosen).unwrap().1 <= most);
+            let dissected = dissected(inner_links(&graph), &mut |_| Ok(())).unwrap();
+            for mut order in [chosen, dissected] {
+                order.sort_unstable();
+                assert!(order.into_iter().eq(0..graph.inner));
+            }
         }
     }
 }

@@ -1,70 +1,33 @@
 //! A separator by way of smaller graphs, between which it is asked if the work goes on.
 //!
-//! Vertices that are tied the most become one, two by two, until the graph is small enough for a call that cannot be
-//! asked. The separator of that call is carried back from graph to graph. In each it is refined: a vertex of the
+//! Vertices that are tied the most become one, two by two, until the graph is small. There halves grow from some vertices,
+//! and the best of the separators beside them are carried back from graph to graph. In each they are refined: a vertex of the
 //! separator goes to one side, and those of its neighbours that are on the other side come into the separator (C. M.
 //! Fiduccia and R. M. Mattheyses 1982; B. Hendrickson and E. Rothberg, SIAM J. Sci. Comput. 20 (1998) 468-489).
 
 use std::borrow::Cow;
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 
 use super::factor_progress::{FactorProgress, FactorStep, Stopped};
+use super::links::Links;
 
-/// The neighbours of each vertex, ascending, and where they begin.
-#[derive(Clone)]
-pub struct Links {
-    pub start: Vec<i32>,
-    pub neighbour: Vec<i32>,
-}
+/// Halves that grow in the smallest graph, and how many of their separators are carried back.
+const STARTS: usize = 16;
+const CARRIED: usize = 3;
 
-impl Links {
-    pub fn vertices(&self) -> usize {
-        self.start.len() - 1
-    }
-
-    fn range(&self, v: usize) -> std::ops::Range<usize> {
-        self.start[v] as usize..self.start[v + 1] as usize
-    }
-
-    pub fn neighbours(&self, v: usize) -> impl Iterator<Item = usize> {
-        self.neighbour[self.range(v)].iter().map(|&w| w as usize)
-    }
-
-    /// The connected parts of the vertices that are not in the separator, each ascending.
-    pub fn parts(&self, separator: &[i32]) -> Vec<Vec<usize>> {
-        let mut is_open = vec![true; self.vertices()];
-        separator.iter().for_each(|&v| is_open[v as usize] = false);
-        let mut parts = Vec::new();
-        for from in 0..self.vertices() {
-            if !std::mem::take(&mut is_open[from]) {
-                continue;
-            }
-            let (mut part, mut done) = (vec![from], 0);
-            while let Some(&v) = part.get(done) {
-                done += 1;
-                part.extend(self.neighbours(v).filter(|&w| std::mem::take(&mut is_open[w])));
-            }
-            part.sort_unstable();
-            parts.push(part);
-        }
-        parts
-    }
-}
-
-/// The best separator of `links` that is made from those that `by_call` finds with four seeds in a graph of fewer than
-/// `small` vertices, if it can be made so small. `None` if there is none.
+/// The best separator of `links` that is found by way of a graph of fewer than `small` vertices, if it can be made so
+/// small. `None` if there is none.
 ///
 /// # Errors
 /// `progress` ends it.
 pub fn separator(
     links: &Links,
     small: usize,
-    by_call: impl Fn(&Links, u64) -> Option<Vec<i32>>,
     progress: &mut FactorProgress<'_>,
-) -> Result<Option<Vec<i32>>, Stopped> {
+) -> Result<Option<Vec<usize>>, Stopped> {
     let mut graph = Level::finest(links, small, progress)?;
-    let mut finer: Vec<(Level<'_>, Vec<i32>)> = Vec::new();
+    let mut finer: Vec<(Level<'_>, Vec<usize>)> = Vec::new();
     while graph.links.vertices() >= small {
         progress(FactorStep::HasDone(0.0))?;
         let (coarse, one) = graph.coarse();
@@ -75,13 +38,18 @@ pub fn separator(
         }
         finer.push((std::mem::replace(&mut graph, coarse), one));
     }
+    let mut grown = Vec::new();
+    for start in 0..STARTS {
+        let from = start * graph.links.vertices() / STARTS;
+        grown.push(Sides::refined(&graph, graph.halves(from), progress)?);
+    }
+    grown.sort_by(|one, other| one.badness().total_cmp(&other.badness()));
+    grown.dedup_by(|one, other| one.side == other.side);
     let mut best: Option<(f64, Vec<usize>)> = None;
-    for seed in 0..4 {
-        progress(FactorStep::HasDone(0.0))?;
-        let Some(found) = by_call(&graph.links, seed) else { continue };
-        let mut sides = Sides::refined(&graph, graph.sides(&found), progress)?;
+    for mut sides in grown.into_iter().take(CARRIED) {
         for (graph, one) in finer.iter().rev() {
-            let side = one.iter().map(|&v| sides.side[v as usize]).collect();
+            progress(FactorStep::HasDone(0.0))?;
+            let side = one.iter().map(|&v| sides.side[v]).collect();
             sides = Sides::refined(graph, side, progress)?;
         }
         let badness = sides.badness();
@@ -89,10 +57,7 @@ pub fn separator(
             best = Some((badness, sides.side));
         }
     }
-    let between = |side: Vec<usize>| {
-        let marked = (0..).zip(side).filter(|&(_, side)| side == BETWEEN);
-        marked.map(|(v, _)| v).collect()
-    };
+    let between = |side: Vec<usize>| (0..side.len()).filter(|&v| side[v] == BETWEEN).collect();
     Ok(best.map(|(_, side)| between(side)))
 }
 
@@ -117,7 +82,7 @@ impl<'l> Level<'l> {
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Stopped> {
         let mut strength = vec![1; links.neighbour.len()];
-        let mut next: Vec<usize> = links.start.iter().map(|&k| k as usize).collect();
+        let mut next = links.start.clone();
         // The last vertex whose neighbour this one is.
         let mut beside = vec![usize::MAX; links.vertices()];
         for v in 0..links.vertices() {
@@ -141,19 +106,19 @@ impl<'l> Level<'l> {
     }
 
     /// The graph of twos, and the vertex that each one became.
-    fn coarse(&self) -> (Level<'static>, Vec<i32>) {
+    fn coarse(&self) -> (Level<'static>, Vec<usize>) {
         let size = self.links.vertices();
-        let (mut one, mut twos) = (vec![-1; size], Vec::new());
+        let (mut one, mut twos) = (vec![usize::MAX; size], Vec::new());
         for v in 0..size {
-            if one[v] >= 0 {
+            if one[v] < usize::MAX {
                 continue;
             }
             let tie = |&(w, strength): &(usize, i32)| f64::from(strength) / self.weight[w] as f64;
-            let free = self.edges(v).filter(|&(w, _)| one[w] < 0);
+            let free = self.edges(v).filter(|&(w, _)| one[w] == usize::MAX);
             // The first one of those that are tied the most.
             let mate = free.reduce(|a, b| if tie(&b) > tie(&a) { b } else { a });
             let two = [Some(v), mate.map(|(w, _)| w)];
-            two.iter().flatten().for_each(|&v| one[v] = twos.len() as i32);
+            two.iter().flatten().for_each(|&v| one[v] = twos.len());
             twos.push(two);
         }
         let mut place = vec![usize::MAX; twos.len()];
@@ -161,32 +126,39 @@ impl<'l> Level<'l> {
         for (k, two) in twos.iter().enumerate() {
             let begin = edges.len();
             for (w, strength) in two.iter().flatten().flat_map(|&v| self.edges(v)) {
-                let w = one[w] as usize;
+                let w = one[w];
                 if w != k && (place[w] < begin || place[w] >= edges.len()) {
                     place[w] = edges.len();
-                    edges.push((w as i32, strength));
+                    edges.push((w, strength));
                 } else if w != k {
                     edges[place[w]].1 += strength;
                 }
             }
             edges[begin..].sort_unstable();
-            start.push(edges.len() as i32);
+            start.push(edges.len());
             weight.push(two.iter().flatten().map(|&v| self.weight[v]).sum());
         }
         let (neighbour, strength) = edges.into_iter().unzip();
         (Level { links: Cow::Owned(Links { start, neighbour }), strength, weight }, one)
     }
 
-    /// The marks of a separator: of its parts, each large one goes to the side that is smaller so far.
-    fn sides(&self, separator: &[i32]) -> Vec<usize> {
-        let mut side = vec![BETWEEN; self.links.vertices()];
-        let mut parts = self.links.parts(separator);
-        parts.sort_by_key(|part| Reverse(part.len()));
-        let mut size = [0; 2];
-        for part in parts {
-            let to = usize::from(size[1] < size[0]);
-            size[to] += part.iter().map(|&v| self.weight[v]).sum::<i64>();
-            part.into_iter().for_each(|v| side[v] = to);
+    /// The marks of a half that grows from a vertex, neighbours first, of a separator beside it, and of the others.
+    fn halves(&self, from: usize) -> Vec<usize> {
+        let half = self.weight.iter().sum::<i64>() / 2;
+        let mut side = vec![1; self.links.vertices()];
+        let (mut beside, mut size) = (VecDeque::from([from]), 0);
+        side[from] = BETWEEN;
+        while size < half
+            && let Some(v) = beside.pop_front()
+        {
+            side[v] = 0;
+            size += self.weight[v];
+            for w in self.links.neighbours(v) {
+                if side[w] == 1 {
+                    side[w] = BETWEEN;
+                    beside.push_back(w);
+                }
+            }
         }
         side
     }
