@@ -2,18 +2,15 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::columns::LINE;
 use super::matrix::Matrix;
 use super::perturbation::Perturbation;
 use super::simd::vectorised;
 use super::watched::BLOCK;
 use crate::workers::{each, reading};
 
-/// Columns that are read in one pass, and rows of a vector of the processor.
+/// Columns that are read in one pass. A vector of the processor has the numbers of a line.
 const AT_ONCE: usize = 4;
-const LANES: usize = 8;
-
-/// Begins the numbers of the vector: any one does.
-const SEED: u64 = 1;
 
 impl Matrix<'_> {
     /// `true` if each entry is of size `most` at most and differs by `apart` at most from the one across the diagonal, both
@@ -24,7 +21,7 @@ impl Matrix<'_> {
     /// pattern: one difference that is too large makes a sum too large, and several do not cancel in all of their rows.
     pub fn agrees_across(&self, root: &[f64], apart: f64, most: f64) -> bool {
         let size = self.size();
-        let mut numbers = Perturbation::new(SEED);
+        let mut numbers = Perturbation::new(1);
         let scaled = |root: &f64| {
             let number = numbers.next();
             (number + number.signum()) / if *root == 0.0 { 1.0 } else { *root }
@@ -84,23 +81,23 @@ fn pass(
     (x, root): (&[f64], &[f64]),
     product: &mut [f64],
 ) -> ([f64; AT_ONCE], bool) {
-    let (mut sums, mut marks) = ([[0.0; LANES]; AT_ONCE], [0.0; LANES]);
+    let (mut sums, mut marks) = ([[0.0; LINE]; AT_ONCE], [0.0; LINE]);
     let size = product.len();
-    let whole = size - size % LANES;
-    for from in (0..whole).step_by(LANES) {
+    let whole = size - size % LINE;
+    for from in (0..whole).step_by(LINE) {
         let (x, root, mut added) = (vector(x, from), vector(root, from), vector(product, from));
         for c in 0..AT_ONCE {
             let entries = vector(columns[c], from);
-            for l in 0..LANES {
+            for l in 0..LINE {
                 added[l] = entries[l].mul_add(factors[c], added[l]);
                 sums[c][l] = entries[l].mul_add(x[l], sums[c][l]);
                 let is_beyond = entries[l].abs() > limits[c] * root[l];
                 marks[l] = if is_beyond { 1.0 } else { marks[l] };
             }
         }
-        product[from..from + LANES].copy_from_slice(&added);
+        product[from..from + LINE].copy_from_slice(&added);
     }
-    let mut is_beyond = marks != [0.0; LANES];
+    let mut is_beyond = marks != [0.0; LINE];
     for i in whole..size {
         for c in 0..AT_ONCE {
             let entry = columns[c][i];
@@ -114,7 +111,7 @@ fn pass(
 
 /// The numbers from `from` on.
 #[inline(always)]
-fn vector(values: &[f64], from: usize) -> [f64; LANES] {
-    let values = &values[from..from + LANES];
+fn vector(values: &[f64], from: usize) -> [f64; LINE] {
+    let values = &values[from..from + LINE];
     std::array::from_fn(|k| values[k])
 }

@@ -11,9 +11,6 @@ use super::separator::separator;
 /// Pieces of fewer vertices are ordered at once: their share of the cost is small.
 const SMALL: usize = 300;
 
-/// Pieces of fewer vertices are cut within milliseconds: it is asked before that alone.
-const SOON: usize = 3000;
-
 /// A connected part of the graph. Vertices ascend, and so do the neighbours of each.
 struct Piece {
     links: Links,
@@ -24,7 +21,7 @@ struct Piece {
 /// The order of the vertices of a graph, whose neighbours ascend.
 ///
 /// # Errors
-/// No memory, or `progress`, which is asked before each piece and between the levels of large ones, ends it.
+/// No memory, or `progress`, which is asked before each piece and between the levels of one, ends it.
 pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<usize>, Failure> {
     let vertex = (0..links.vertices()).collect();
     let mut open = Piece { links, vertex }.without(&[]);
@@ -48,11 +45,10 @@ pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<
 impl Piece {
     /// A separator; `None` of a small piece, or if none is found.
     fn separator(&self, progress: &mut FactorProgress<'_>) -> Result<Option<Vec<usize>>, Stopped> {
-        match self.vertex.len() {
-            ..SMALL => Ok(None),
-            SMALL..SOON => separator(&self.links, SMALL, &mut |_| Ok(())),
-            _ => separator(&self.links, SMALL, progress),
+        if self.vertex.len() < SMALL {
+            return Ok(None);
         }
+        separator(&self.links, SMALL, progress)
     }
 
     /// The connected parts of the vertices that are not in a separator.
