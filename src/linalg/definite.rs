@@ -45,8 +45,8 @@ impl Definite {
         let lower = |j: usize, column: &mut [f64]| {
             column[j..].copy_from_slice(&matrix.column(j)[j..]);
         };
-        let mut factor = Factor::new(n, true, SINGULAR, lower, goes_on)?;
-        let found = least_eigenvalue(&mut factor);
+        let factor = Factor::new(n, true, SINGULAR, lower, goes_on)?;
+        let found = least_eigenvalue(&factor);
         let doubt = product_up(FEW_OPERATIONS, norm_inf(&sizes));
         let bound = |part: f64| above(&matrix, part * found, doubt, goes_on);
         let least = SHIFTS.into_iter().find_map(bound)?;
@@ -54,7 +54,7 @@ impl Definite {
     }
 
     /// Overwrites a right-hand side with the approximate solution.
-    pub fn solve(&mut self, rhs: &mut [f64]) {
+    pub fn solve(&self, rhs: &mut [f64]) {
         self.factor.solve(rhs);
     }
 }
@@ -79,7 +79,7 @@ fn lower_symmetric_part(matrix: &mut Columns) -> Vec<f64> {
 }
 
 /// The least eigenvalue, roughly.
-fn least_eigenvalue(factor: &mut Factor) -> f64 {
+fn least_eigenvalue(factor: &Factor) -> f64 {
     // No symmetry of a structure has this vector without a part along the eigenvector.
     let mut x: Vec<f64> = (0..factor.size()).map(|i| 1.0 + (i as f64).sin()).collect();
     let mut found = f64::INFINITY;

@@ -32,8 +32,6 @@ pub fn lu_work(n: usize) -> f64 {
 pub struct Factor {
     factors: Columns,
     kind: Kind,
-    /// Working memory of [`by_rows`].
-    rows: Vec<f64>,
 }
 
 enum Kind {
@@ -73,7 +71,7 @@ impl Factor {
         let largest = (0..n).map(pivot).fold(0.0, f64::max);
         // Written so that NaN is singular too.
         let regular = (0..n).all(|i| pivot(i) > least * largest);
-        regular.then(|| Factor { factors, kind, rows: Vec::new() })
+        regular.then_some(Factor { factors, kind })
     }
 
     /// Number of rows.
@@ -82,19 +80,25 @@ impl Factor {
     }
 
     /// Overwrites columns of right-hand sides, contiguous, with solutions.
-    pub fn solve(&mut self, rhs: &mut [f64]) {
+    pub fn solve(&self, rhs: &mut [f64]) {
         let n = self.size();
         if n == 0 || rhs.is_empty() {
             return;
         }
         let columns = rhs.len() / n;
         let rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
+        let multiplications = (n * n * columns) as f64;
+        each(blocks_of_columns(rhs, BLOCK), multiplications, |rhs| self.solve_block(rhs));
+    }
+
+    fn solve_block(&self, rhs: MatMut<'_, f64>) {
+        let (n, columns) = rhs.shape();
         let factors = self.factors.as_ref();
         match &self.kind {
             Kind::Cholesky => {
                 let scratch = llt::solve::solve_in_place_scratch::<f64>(n, columns, Par::Seq);
                 with_scratch(scratch, |stack| {
-                    by_rows(rhs, &mut self.rows, |rhs| {
+                    by_rows(rhs, &mut Vec::new(), |rhs| {
                         llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
                     });
                 });

@@ -11,6 +11,7 @@ use std::ops::Range;
 use super::curved::POWERS;
 use super::overlap::{Meeting, Part};
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
+use crate::linalg::columns::LINE;
 use crate::linalg::simd::vectorised;
 
 /// A monomial that is this close to a combination of those before it adds nothing: the covered part has
@@ -22,9 +23,6 @@ const PASSES: usize = 2;
 
 /// A function that keeps this share of its norm has lost nothing in the first pass.
 const KEPT: f64 = 0.9;
-
-/// Sums that run beside each other: a processor adds several numbers at a time.
-const LANES: usize = 8;
 
 /// Most nodes of a linear face.
 const MOST_LINEAR: usize = 4;
@@ -87,14 +85,14 @@ pub(super) struct Polynomials {
     weights: Vec<f64>,
 }
 
-/// The sum of products.
+/// The sum of products, in as many sums beside each other as a line has numbers.
 #[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (parts, a) = a.as_chunks::<LANES>();
-    let (others, b) = b.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
+    let (parts, a) = a.as_chunks::<LINE>();
+    let (others, b) = b.as_chunks::<LINE>();
+    let mut sums = [0.0; LINE];
     for (part, other) in parts.iter().zip(others) {
-        (0..LANES).for_each(|k| sums[k] += part[k] * other[k]);
+        (0..LINE).for_each(|k| sums[k] += part[k] * other[k]);
     }
     sums.iter().sum::<f64>() + a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
 }

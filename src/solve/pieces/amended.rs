@@ -135,10 +135,10 @@ impl Amended {
     }
 
     /// The displacements of `J⁻¹ b` where the law is linear on each piece.
-    pub fn motion(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
+    pub fn motion(&self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
         let dim = equations.dim;
         let mut x = self.base.unknowns(b);
-        let Some(change) = &mut self.change else { return self.base.displacements(&x) };
+        let Some(change) = &self.change else { return self.base.displacements(&x) };
         let held = change.changed.held.iter().map(|&i| b[i]).collect();
         let mut y = change.changed.coordinates(&self.base, &x, held);
         let mut along: Vec<f64> =

@@ -5,6 +5,7 @@
 
 use super::term::Term;
 use crate::linalg::watched::{BLOCK, GoesOn};
+use crate::workers::threads;
 
 /// Most columns that are kept, as a part of all: they take memory.
 const KEPT: f64 = 0.25;
@@ -74,7 +75,7 @@ impl Columns {
         if !self.make_room(components.len()) {
             components = lacking(self);
         }
-        for components in components.chunks(BLOCK) {
+        for components in components.chunks(BLOCK * threads()) {
             if !goes_on() {
                 return None;
             }

@@ -146,7 +146,7 @@ impl System {
     }
 
     /// The unknowns of `J⁻¹ b` for each column of `b`, without a border.
-    pub fn unknowns(&mut self, b: &[f64]) -> Vec<f64> {
+    pub fn unknowns(&self, b: &[f64]) -> Vec<f64> {
         let mut x = self.right_sides(b);
         self.factor.solve(&mut x);
         x

@@ -122,8 +122,8 @@ impl<'e> Systems<'e> {
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn motion(&mut self, lack: &[f64]) -> Result<Vec<f64>, Ending> {
-        let dd = self.last.as_mut().map(|last| last.motion(self.equations, &opposite(lack)));
+    pub fn motion(&self, lack: &[f64]) -> Result<Vec<f64>, Ending> {
+        let dd = self.last.as_ref().map(|last| last.motion(self.equations, &opposite(lack)));
         dd.filter(|dd| first_not_finite(dd).is_none()).ok_or(Ending::Singular)
     }
 

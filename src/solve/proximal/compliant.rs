@@ -126,7 +126,7 @@ fn stiffness(
 ) -> Result<Option<Vec<f64>>, Stop> {
     let n = relation.size();
     let root = roots(relation);
-    let Some(mut factor) = factor(relation, (compliance, SINGULAR), monitor)? else {
+    let Some(factor) = factor(relation, (compliance, SINGULAR), monitor)? else {
         return Ok(None);
     };
     let mut inverse = vec![0.0; n * n];

@@ -239,7 +239,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
             return Err(stop.into());
         }
         self.systems += 1;
-        let mut factor = factor.ok_or(Ending::Singular)?;
+        let factor = factor.ok_or(Ending::Singular)?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);
         let mut step = vec![[0.0; 3]; pairs.len()];

@@ -26,7 +26,7 @@ fn factors_by_blocks_solve_their_systems() {
                 column.copy_from_slice(&entries[n * j..n * (j + 1)]);
             };
             let factor = Factor::new(n, symmetric, SINGULAR, fill, &mut || true);
-            let mut factor = factor.expect("it is regular");
+            let factor = factor.expect("it is regular");
             let b: Vec<f64> = (0..n).map(|_| rng.f64() - 0.5).collect();
             let mut x = b.clone();
             factor.solve(&mut x);
