@@ -5,18 +5,14 @@
 //! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, SIAM 2002, section 3.5). Row sums of
 //! `|R| |J|` take a product with a vector only.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{
-    solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
-};
-use faer::perm::{PermRef, permute_cols_in_place, permute_cols_in_place_scratch};
 use faer::{Accum, Mat, Par};
 
 use super::ball::{product_up, sum_of_products_up, sum_up};
 use super::columns::Columns;
+use super::dense::Triangle;
 use super::factor::{RowOrder, lu};
-use super::watched::{GoesOn, block, filled};
+use super::watched::{GoesOn, block, columns_of, filled};
 
 /// A matrix and its approximate inverse.
 pub struct ApproximateInverse {
@@ -135,7 +131,7 @@ fn bound_of_product(matrix: &Columns, x: &[f64]) -> Vec<f64> {
 fn inverted(matrix: &Columns, goes_on: GoesOn<'_>) -> Option<Columns> {
     let n = matrix.nrows();
     let mut factors = matrix.as_ref().transpose().to_owned();
-    let RowOrder { forward, inverse: backward, .. } = lu(factors.as_mut(), goes_on)?;
+    let RowOrder { order, .. } = lu(factors.as_mut(), goes_on)?;
     let mut inverse = Columns::zeros(n, n);
     (0..n).for_each(|i| inverse[(i, i)] = 1.0);
     let mut columns = inverse.as_mut().transpose_mut();
@@ -146,11 +142,12 @@ fn inverted(matrix: &Columns, goes_on: GoesOn<'_>) -> Option<Columns> {
         }
         let mut block = columns.as_mut().get_mut(.., begin..n.min(begin + at_once));
         let below = block.as_mut().get_mut(begin.., ..);
-        solve_unit_lower_triangular_in_place(factors.get(begin.., begin..), below, Par::Seq);
-        solve_upper_triangular_in_place(factors.as_ref(), block, Par::Seq);
+        Triangle::UnitLower.solve(factors.get(begin.., begin..), below);
+        Triangle::Upper.solve(factors.as_ref(), block);
     }
-    let mut memory = MemBuffer::new(permute_cols_in_place_scratch::<usize, f64>(n, n));
-    let order = PermRef::new_checked(&forward, &backward, n);
-    permute_cols_in_place(columns, order.inverse(), MemStack::new(&mut memory));
+    for column in columns_of(inverse.as_mut()) {
+        let before = column.to_vec();
+        order.iter().zip(before).for_each(|(&to, entry)| column[to] = entry);
+    }
     Some(inverse)
 }

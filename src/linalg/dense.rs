@@ -6,7 +6,10 @@ use faer::linalg::cholesky::llt::factor::{
 };
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
+    solve_upper_triangular_in_place,
+};
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use super::columns::Columns;
@@ -143,6 +146,46 @@ pub fn divide(factor: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
     each(blocks_of_columns(rows.transpose_mut(), SIDE), multiplications, |rows| {
         solve_lower_triangular_in_place(factor, rows, Par::Seq);
     });
+}
+
+/// A solution by one thread.
+type Solution = fn(MatRef<'_, f64>, MatMut<'_, f64>, Par);
+
+/// The kind of a triangular matrix.
+#[derive(Clone, Copy)]
+pub enum Triangle {
+    Lower,
+    UnitLower,
+    Upper,
+}
+
+impl Triangle {
+    /// Overwrites `x` with `T⁻¹ x`, `T` this triangle of `matrix`.
+    pub fn solve(self, matrix: MatRef<'_, f64>, mut x: MatMut<'_, f64>) {
+        let (n, columns) = x.shape();
+        let blocks = n.div_ceil(SIDE);
+        for step in 0..blocks {
+            let block = if matches!(self, Triangle::Upper) { blocks - 1 - step } else { step };
+            let (begin, end) = (SIDE * block, n.min(SIDE * (block + 1)));
+            let (above, from) = x.as_mut().split_at_row_mut(begin);
+            let (mut own, below) = from.split_at_row_mut(end - begin);
+            let corner = matrix.get(begin..end, begin..end);
+            let (solved, first, others): (Solution, usize, _) = match self {
+                Triangle::Lower => (solve_lower_triangular_in_place, end, below),
+                Triangle::UnitLower => (solve_unit_lower_triangular_in_place, end, below),
+                Triangle::Upper => (solve_upper_triangular_in_place, 0, above),
+            };
+            solved(corner, own.as_mut(), Par::Seq);
+            let numbers = others.nrows() * (end - begin);
+            let multiplications = reading(numbers).max((numbers * columns) as f64);
+            let parts = blocks_of_columns(others.transpose_mut(), SIDE).enumerate();
+            each(parts, multiplications, |(part, others)| {
+                let first = first + SIDE * part;
+                let rows = matrix.get(first..first + others.ncols(), begin..end);
+                matmul(others.transpose_mut(), Accum::Add, rows, own.as_ref(), -1.0, Par::Seq);
+            });
+        }
+    }
 }
 
 /// `X = B L⁻ᵀ` and `C - X Xᵀ`, both triangles, column-major, from a factor `L`; `coupling` writes a column of `B`, and

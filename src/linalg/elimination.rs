@@ -1,12 +1,7 @@
 //! Elimination of some components of a symmetric positive definite system, by faer.
 
-use faer::Par;
-use faer::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
-};
-
 use super::columns::Columns;
-use super::dense;
+use super::dense::{self, Triangle};
 use super::factor::{cholesky, cholesky_work};
 use super::matrix::Matrix;
 use super::sparse_matrix::{as_column, as_column_mut};
@@ -81,16 +76,14 @@ impl Elimination {
         let mut half = self.solved_half(b);
         let taken = self.half.as_ref().transpose() * as_column(x);
         half.iter_mut().zip(taken.col_as_slice(0)).for_each(|(half, taken)| *half -= taken);
-        let upper = self.lower.as_ref().transpose();
-        solve_upper_triangular_in_place(upper, as_column_mut(&mut half), Par::Seq);
+        Triangle::Upper.solve(self.lower.as_ref().transpose(), as_column_mut(&mut half));
         half
     }
 
     /// `L⁻¹ b`.
     fn solved_half(&self, b: &[f64]) -> Vec<f64> {
         let mut half = b.to_vec();
-        let lower = self.lower.as_ref();
-        solve_lower_triangular_in_place(lower, as_column_mut(&mut half), Par::Seq);
+        Triangle::Lower.solve(self.lower.as_ref(), as_column_mut(&mut half));
         half
     }
 }

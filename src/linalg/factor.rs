@@ -3,15 +3,13 @@
 use std::mem::MaybeUninit;
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::llt;
 use faer::linalg::lu::partial_pivoting;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
-use faer::perm::PermRef;
 use faer::{Accum, MatMut, Par};
 
 use super::columns::Columns;
-use super::dense;
+use super::dense::{self, Triangle};
 use super::small_products::by_rows;
 use super::watched::{
     BLOCK, GoesOn, SHORT, SIDE, blocks_of_columns, columns_of, filled, lower_triangle,
@@ -41,8 +39,8 @@ enum Kind {
 
 /// The order in which an elimination with row pivots takes the rows.
 pub struct RowOrder {
-    pub forward: Vec<usize>,
-    pub inverse: Vec<usize>,
+    /// The row that comes to each place.
+    pub order: Vec<usize>,
     /// True if its permutation is odd.
     odd: bool,
 }
@@ -85,37 +83,23 @@ impl Factor {
         if n == 0 || rhs.is_empty() {
             return;
         }
-        let columns = rhs.len() / n;
-        let rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
-        let multiplications = (n * n * columns) as f64;
-        each(blocks_of_columns(rhs, BLOCK), multiplications, |rhs| self.solve_block(rhs));
-    }
-
-    fn solve_block(&self, rhs: MatMut<'_, f64>) {
-        let (n, columns) = rhs.shape();
-        let factors = self.factors.as_ref();
-        match &self.kind {
-            Kind::Cholesky => {
-                let scratch = llt::solve::solve_in_place_scratch::<f64>(n, columns, Par::Seq);
-                with_scratch(scratch, |stack| {
-                    by_rows(rhs, &mut Vec::new(), |rhs| {
-                        llt::solve::solve_in_place(factors, rhs, Par::Seq, stack);
-                    });
-                });
+        if let Kind::Lu(RowOrder { order, .. }) = &self.kind {
+            for rhs in rhs.chunks_exact_mut(n) {
+                let before = rhs.to_vec();
+                rhs.iter_mut().zip(order).for_each(|(rhs, &from)| *rhs = before[from]);
             }
-            Kind::Lu(RowOrder { forward, inverse, .. }) => {
-                let order = PermRef::new_checked(forward, inverse, n);
-                let scratch = partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(
-                    n,
-                    columns,
-                    Par::Seq,
-                );
-                with_scratch(scratch, |stack| {
-                    let par = Par::Seq;
-                    partial_pivoting::solve::solve_in_place(
-                        factors, factors, order, rhs, par, stack,
-                    );
-                });
+        }
+        let columns = rhs.len() / n;
+        let mut rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
+        let factors = self.factors.as_ref();
+        match self.kind {
+            Kind::Cholesky => by_rows(rhs, &mut Vec::new(), |mut rhs| {
+                Triangle::Lower.solve(factors, rhs.as_mut());
+                Triangle::Upper.solve(factors.transpose(), rhs);
+            }),
+            Kind::Lu(_) => {
+                Triangle::UnitLower.solve(factors, rhs.as_mut());
+                Triangle::Upper.solve(factors, rhs);
             }
         }
     }
@@ -192,7 +176,7 @@ fn cholesky_to_failure(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Resu
 /// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
 pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
-    let (mut forward, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
+    let (mut order, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
     let spec = faer::Spec::default();
     let request =
         partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
@@ -201,18 +185,18 @@ pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> 
             return None;
         }
         let (width, left) = (most.min(n - begin), n - begin);
-        let (mut order, mut back) = (vec![0; left], vec![0; left]);
+        let (mut from, mut back) = (vec![0; left], vec![0; left]);
         let panel = matrix.as_mut().submatrix_mut(begin, begin, left, width);
         let (info, _) = with_scratch(request, |stack| {
             let par = Par::Seq;
-            partial_pivoting::factor::lu_in_place(panel, &mut order, &mut back, par, stack, spec)
+            partial_pivoting::factor::lu_in_place(panel, &mut from, &mut back, par, stack, spec)
         });
         exchanges += info.transposition_count;
         let moved: Vec<(usize, usize)> = (begin..n)
-            .zip(order.iter().map(|&from| begin + from))
+            .zip(from.iter().map(|&from| begin + from))
             .filter(|(to, from)| to != from)
             .collect();
-        exchange(&mut forward, &moved);
+        exchange(&mut order, &moved);
         let (before, all) = matrix.as_mut().split_at_col_mut(begin);
         let (own, after) = all.split_at_col_mut(width);
         let (root, below) = own.as_ref().get(begin.., ..).split_at_row(width);
@@ -228,9 +212,7 @@ pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> 
             }
         });
     }
-    let mut inverse = vec![0; n];
-    forward.iter().enumerate().for_each(|(to, &from)| inverse[from] = to);
-    Some(RowOrder { forward, inverse, odd: exchanges % 2 == 1 })
+    Some(RowOrder { order, odd: exchanges % 2 == 1 })
 }
 
 /// Moves values all at once: each pair is the new place and the old one.

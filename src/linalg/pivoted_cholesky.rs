@@ -1,11 +1,10 @@
 //! Dense Cholesky factorisation of a semi-definite matrix.
 
 use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve;
 use faer::{Accum, MatRef, Par};
 
 use super::columns::Columns;
-use super::dense;
+use super::dense::{self, Triangle};
 use super::factor::cholesky;
 use super::sparse_matrix::as_column_mut;
 use super::tolerances::SUSPICIOUS_PIVOT;
@@ -65,8 +64,8 @@ impl PivotedCholesky {
     pub fn solve(&self, y: &mut [f64]) {
         let mut y = as_column_mut(y);
         let lower = self.lower();
-        triangular_solve::solve_lower_triangular_in_place(lower, y.as_mut(), Par::Seq);
-        triangular_solve::solve_upper_triangular_in_place(lower.transpose(), y, Par::Seq);
+        Triangle::Lower.solve(lower, y.as_mut());
+        Triangle::Upper.solve(lower.transpose(), y);
     }
 
     /// The factor of the independent rows.

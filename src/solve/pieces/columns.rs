@@ -5,7 +5,6 @@
 
 use super::term::Term;
 use crate::linalg::watched::{BLOCK, GoesOn};
-use crate::workers::threads;
 
 /// Most columns that are kept, as a part of all: they take memory.
 const KEPT: f64 = 0.25;
@@ -75,7 +74,7 @@ impl Columns {
         if !self.make_room(components.len()) {
             components = lacking(self);
         }
-        for components in components.chunks(BLOCK * threads()) {
+        for components in components.chunks(BLOCK) {
             if !goes_on() {
                 return None;
             }
