@@ -28,7 +28,7 @@ PRESSURE = 7.0
 YOUNG = ((2000.0, 0.3), (500.0, 0.2))
 RADIUS, LUG, END, OUTER, CLEARANCE, PUSH = 10.0, 10.0, 16.0, 25.0, 0.05, 0.1
 MU = 0.0, 0.2
-SIZES = 2.8, 2.6, 2.5, 2.4, 2.3, 2.2, 2.1, 2.0, 1.8
+SIZES = 2.8, 2.6, 2.5, 2.4, 2.3, 2.2, 2.1, 2.0, 1.8, 1.5
 
 
 def exact(at, young, poisson, growth):
