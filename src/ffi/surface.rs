@@ -65,13 +65,6 @@ pub struct SignoriniObstacle {
     pub faces: *const SignoriniFaces,
 }
 
-/// An obstacle as the host gave it.
-pub(super) enum Rigid<'a> {
-    Shape(Obstacle),
-    /// Coordinates and faces.
-    Faces(&'a [f64], [Vec<usize>; 2]),
-}
-
 impl SignoriniFaces {
     /// Start and nodes of the faces, counted from 0.
     pub(super) fn read(at: At<'_>, pointer: *const Self, base: i64) -> Outcome<[Vec<usize>; 2]> {
@@ -106,19 +99,6 @@ impl SignoriniFaces {
 }
 
 impl SignoriniObstacle {
-    pub(super) fn read(
-        at: At<'_>,
-        dim: usize,
-        base: i64,
-        pointer: *const Self,
-    ) -> Outcome<Rigid<'_>> {
-        let given = at.whole(pointer)?;
-        if given.kind == SIGNORINI_OBSTACLE_FACES {
-            return given.mesh(at, dim, base);
-        }
-        Ok(Rigid::Shape(given.shape(at, dim)?))
-    }
-
     /// A shape that is no mesh.
     pub(super) fn shape(&self, at: At<'_>, dim: usize) -> Outcome<Obstacle> {
         let in_dim = |mut v: [f64; 3]| {
@@ -147,13 +127,18 @@ impl SignoriniObstacle {
         Ok(shape)
     }
 
-    fn mesh<'a>(&self, at: At<'a>, dim: usize, base: i64) -> Outcome<Rigid<'a>> {
+    /// Coordinates and faces of a mesh.
+    pub(super) fn mesh<'a>(
+        &self,
+        at: At<'a>,
+        dim: usize,
+        base: i64,
+    ) -> Outcome<(&'a [f64], [Vec<usize>; 2])> {
         let nodes = at.field("nodes").size(self.nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
             return at.refuse_part(format!("nodes is {nodes}, too large"));
         };
         let coordinates = at.field("coordinates").required(self.coordinates, length)?;
-        let faces = SignoriniFaces::read(at.named("obstacle: faces"), self.faces, base)?;
-        Ok(Rigid::Faces(coordinates, faces))
+        Ok((coordinates, SignoriniFaces::read(at.named("obstacle: faces"), self.faces, base)?))
     }
 }

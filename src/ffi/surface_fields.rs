@@ -7,7 +7,6 @@ use super::args::{Arrays, c_entry};
 use super::guard::{Outcome, refused};
 use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
-use crate::error::Argument;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::surface::{NodalFields, PairResults};
@@ -99,7 +98,7 @@ pub unsafe extern "C" fn signorini_surface_fields(
         ];
         let states = at.named("state").optional_output(given.state, nodes)?;
         arrays.check_overlap()?;
-        let found = contact.found.fields(&results).map_err(refused(position))?;
+        let found = contact.found.fields(&results).map_err(refused(|_| 5))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
             scatter(nodes, values, |at, of_node| place.part(at, of_node.len()).write(of_node));
@@ -133,7 +132,7 @@ pub unsafe extern "C" fn signorini_surface_resultant(
         let origin = [0.0; 3];
         let point = arrays.at(5, "point").optional(point, dim)?.unwrap_or(&origin[..dim]);
         let resultant = arrays.at(6, "resultant").out_structure(resultant)?;
-        let sums = contact.found.resultant(&results, point).map_err(refused(position))?;
+        let sums = contact.found.resultant(&results, point).map_err(refused(|_| 4))?;
         let told = SignoriniResultant {
             struct_size: size_of::<SignoriniResultant>() as u32,
             reserved: 0,
@@ -147,7 +146,8 @@ pub unsafe extern "C" fn signorini_surface_resultant(
     })
 }
 
-/// The results of a host: gap, slip0, d and F, with their positions.
+/// The results of a host: gap, slip0, d and F, with their positions. All lengths are those of the pairs, so that nothing of
+/// them is left to be wrong.
 pub(super) fn pair_results<'a>(
     arrays: &'a Arrays,
     contact: &SignoriniSurfacePairs,
@@ -161,16 +161,6 @@ pub(super) fn pair_results<'a>(
         d: arrays.at(positions[2], "d").required(d, dim * pairs)?,
         force: arrays.at(positions[3], "F").required(force, dim * pairs)?,
     })
-}
-
-/// All lengths are those of the pairs, so that no argument is left to be wrong.
-pub(super) fn position(argument: Argument) -> i32 {
-    match argument {
-        Argument::Gap => 2,
-        Argument::ReferenceSlip => 3,
-        Argument::Start => 4,
-        _ => 5,
-    }
 }
 
 /// Hands over the values of each of some nodes, with their place among those of all nodes.

@@ -11,7 +11,7 @@ use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::numbers::Numbered;
 use super::surface::SignoriniFaces;
-use super::surface_fields::{pair_results, position};
+use super::surface_fields::pair_results;
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::law::State;
 use crate::problem::Law;
@@ -126,9 +126,11 @@ pub unsafe extern "C" fn signorini_surface_table(
         let forces = ["force x", "force y", "force z", "area", "pressure"];
         add_row(&mut table, "zone", ["pairs", "open", "slip", "stick"], forces);
         for (name, pairs) in joined.zones() {
-            let sums = joined.found.sums_of(pairs.clone(), &results).map_err(refused(position))?;
-            let [x, y, z] = sums.resultant.force;
-            let numbers = [x, y, z, sums.resultant.pressed_area, sums.largest_pressure];
+            let origin = &[0.0; 3][..joined.found.dim];
+            let sums = joined.found.resultant_of(pairs.clone(), &results, origin);
+            let sums = sums.map_err(refused(|_| 3))?;
+            let [x, y, z] = sums.force;
+            let numbers = [x, y, z, sums.pressed_area, sums.largest_pressure];
             add_row(&mut table, name, counts(&state[pairs]), numbers.map(scientific));
         }
         let fitting = (0..length).rev().find(|&end| table.is_char_boundary(end.min(table.len())));

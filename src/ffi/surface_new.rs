@@ -8,16 +8,13 @@ use super::guard::{Outcome, refused};
 use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::structures::Structure;
-use super::surface::{Rigid, SignoriniFaces, SignoriniObstacle};
+use super::surface::{SIGNORINI_OBSTACLE_FACES, SignoriniFaces, SignoriniObstacle};
 use super::surface_settings::{Numbering, ParsedSurfaceSettings, SignoriniSurfaceSettings};
-use crate::error::{Argument, Message};
+use crate::error::{Argument, Error, Message};
 use crate::monitor::Monitor;
 use crate::problem;
 use crate::settings::Settings;
-use crate::surface::{
-    KeptSurfaces, PairArrays, RigidSurface, SurfacePairs, Surfaces, pair_surfaces,
-    pair_with_obstacle, pair_with_rigid_surface,
-};
+use crate::surface::{KeptSurfaces, Master, PairArrays, SurfacePairs, Surfaces, pair_surfaces};
 
 /// Contact pairs that the library made from surfaces. It does not change: several threads may use
 /// one at once. It holds copies: your arrays may go once it is made. signorini_surface_free
@@ -83,15 +80,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let base = host.received.numbering.base;
         let master = SignoriniFaces::read(arrays.at(5, "master"), master, base)?;
-        let Host { dim, coordinates, .. } = host;
-        let (slave, master) = (SignoriniFaces::view(&host.slave), SignoriniFaces::view(&master));
-        let found = host.received.limits.monitored(|monitor| {
-            let surfaces = Surfaces { dim, coordinates, slave, master };
-            let found = pair_surfaces(&surfaces, &host.received.settings, monitor)?;
-            Ok((found, KeptSurfaces::new((dim, coordinates), slave, master)))
-        });
-        let pairs = found.map(|(found, kept)| SignoriniSurfacePairs::of_host(found, kept, host));
-        place.fill(pairs, position)
+        place.fill(host.pairs(Master::Faces(SignoriniFaces::view(&master))), position)
     })
 }
 
@@ -118,26 +107,17 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     c_entry!(|arrays| {
         let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
-        let Host { dim, coordinates, .. } = host;
-        let (slave, host_side) = (SignoriniFaces::view(&host.slave), (dim, coordinates));
-        let ParsedSurfaceSettings { settings, limits, numbering } = &host.received;
         let at = arrays.at(5, "obstacle");
-        let obstacle = SignoriniObstacle::read(at, dim, numbering.base, obstacle)?;
-        let found = limits.monitored(|monitor| match &obstacle {
-            Rigid::Shape(shape) => {
-                let found = pair_with_obstacle(dim, coordinates, slave, shape, settings, monitor)?;
-                Ok((found, KeptSurfaces::against_shape(host_side, slave, *shape)))
-            }
-            Rigid::Faces(of_obstacle, faces) => {
-                let faces = SignoriniFaces::view(faces);
-                let rigid = RigidSurface { coordinates: of_obstacle, faces };
-                let found =
-                    pair_with_rigid_surface(dim, coordinates, slave, &rigid, settings, monitor)?;
-                let kept = KeptSurfaces::against_faces(host_side, slave, (of_obstacle, faces));
-                Ok((found, kept))
-            }
-        });
-        let pairs = found.map(|(found, kept)| SignoriniSurfacePairs::of_host(found, kept, host));
+        let given = at.whole(obstacle)?;
+        let pairs = if given.kind == SIGNORINI_OBSTACLE_FACES {
+            let base = host.received.numbering.base;
+            let (coordinates, faces) = given.mesh(at, host.dim, base)?;
+            let faces = SignoriniFaces::view(&faces);
+            host.pairs(Master::RigidFaces { coordinates, faces })
+        } else {
+            let shape = given.shape(at, host.dim)?;
+            host.pairs(Master::RigidShape(shape))
+        };
         place.fill(pairs, position)
     })
 }
@@ -214,6 +194,20 @@ impl<'h> Host<'h> {
         let slave = SignoriniFaces::read(arrays.at(4, "slave"), slave, base)?;
         Ok(Host { dim, coordinates, slave, received })
     }
+
+    fn pairs(self, master: Master<'_>) -> Result<SignoriniSurfacePairs, Error> {
+        let Host { dim, coordinates, slave, received } = self;
+        let ParsedSurfaceSettings { settings, limits, numbering } = received;
+        let faces = SignoriniFaces::view(&slave);
+        let surfaces = Surfaces { dim, coordinates, slave: faces, master };
+        let (found, kept) = limits.monitored(|monitor| {
+            let found = pair_surfaces(&surfaces, &settings, monitor)?;
+            Ok((found, KeptSurfaces::new(&surfaces)))
+        })?;
+        let zones = JoinedZones { summary: found.summary(), ..JoinedZones::default() };
+        let pairs = SignoriniSurfacePairs::new(found, coordinates.len() / dim, numbering, zones);
+        Ok(SignoriniSurfacePairs { kept: Some(kept), slave_faces: slave, ..pairs })
+    }
 }
 
 /// What joined pairs hold of their zones; nothing of pairs that were not joined.
@@ -228,14 +222,6 @@ pub(super) struct JoinedZones {
 }
 
 impl SignoriniSurfacePairs {
-    fn of_host(found: SurfacePairs, kept: KeptSurfaces, host: Host<'_>) -> Self {
-        let summary = found.summary();
-        let zones = JoinedZones { summary, ..JoinedZones::default() };
-        let nodes = host.coordinates.len() / host.dim;
-        let pairs = SignoriniSurfacePairs::new(found, nodes, host.received.numbering, zones);
-        SignoriniSurfacePairs { kept: Some(kept), slave_faces: host.slave, ..pairs }
-    }
-
     /// Pairs without faces, of so many nodes of the host.
     pub(super) fn new(
         found: SurfacePairs,

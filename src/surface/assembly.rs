@@ -47,7 +47,7 @@ pub(super) fn pair_of_row(
     })
 }
 
-/// The pairs of rows; slave nodes without a row are unpaired. The covered area is added to the report.
+/// The pairs of rows; slave nodes without a row are unpaired. The number of slave faces and the covered area are added to the report.
 ///
 /// # Errors
 /// Those of `pair`, which makes a pair of a node and its row; what ends the watch.
@@ -63,6 +63,7 @@ pub(super) fn pairs_of_rows(
         pair(node, row)
     };
     let pairs: Vec<SurfacePair> = rows.into_iter().map(watched).collect::<Result<_, Error>>()?;
+    report.slave_faces = slave.count();
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let mut unpaired = slave.all_nodes();
     watch.goes_on()?;

@@ -55,6 +55,8 @@ pub struct Resultant {
     pub friction_work: f64,
     /// The area of the pairs that press.
     pub pressed_area: f64,
+    /// The largest pressure of a pair; 0 if none presses.
+    pub largest_pressure: f64,
 }
 
 /// Values of a pair, or a weighted sum of them.
@@ -141,7 +143,7 @@ impl SurfacePairs {
     ///
     /// # Errors
     /// As [`Self::resultant`].
-    pub(super) fn resultant_of(
+    pub fn resultant_of(
         &self,
         pairs: Range<usize>,
         results: &PairResults<'_>,
@@ -163,6 +165,8 @@ impl SurfacePairs {
                 of_pair[1..].iter().zip(slip).map(|(force, slip)| force * slip).sum::<f64>();
             if of_pair[0] < 0.0 {
                 resultant.pressed_area += pair.area;
+                resultant.largest_pressure =
+                    resultant.largest_pressure.max(-of_pair[0] / pair.area);
             }
         }
         if self.axisymmetric {

@@ -1,15 +1,15 @@
-//! Two surfaces of a mesh: what the host hands over, and what is refused, as faces for their shape, and neighbours of which one
+//! A surface of a mesh and what it may touch: what the host hands over, and what is refused, as faces for their shape, and neighbours of which one
 //! is turned over.
 
 use std::collections::HashMap;
 
+use super::exact_shape::Obstacle;
 use super::face::Face;
 use super::pairs::Weight;
 use super::shape::{FaceKind, MOST_NODES};
 use super::watch::Watch;
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::vector3::{Vector3, vector};
-use crate::problem::checked_dim;
 
 /// A node is on a plane if it is nearer than this part of the size of its side: ten times the error of
 /// coordinates with seven digits.
@@ -31,7 +31,7 @@ pub struct Faces<'a> {
     pub nodes: &'a [usize],
 }
 
-/// Two surfaces that may touch.
+/// A surface, and what it may touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<'a> {
     /// Space dimension, 2 or 3.
@@ -42,7 +42,25 @@ pub struct Surfaces<'a> {
     /// with 3 or 6 nodes and quadrilaterals with 4, 8 or 9, in any mixture.
     pub slave: Faces<'a>,
     /// The other side.
-    pub master: Faces<'a>,
+    pub master: Master<'a>,
+}
+
+/// What a surface may touch. A rigid one does not move: rows have slaves alone.
+#[derive(Clone, Copy, Debug)]
+pub enum Master<'a> {
+    /// Faces of the same mesh.
+    Faces(Faces<'a>),
+    /// A rigid mesh: triangles of a scan or of a drawing, or any other faces. Gaps are those that two deformable surfaces of
+    /// the same places have.
+    RigidFaces {
+        /// Coordinates of its nodes, `dim` for each node.
+        coordinates: &'a [f64],
+        /// Its faces, in nodes of its own counted from 0; seen from the body that may touch them the corners
+        /// run counterclockwise, in the plane the obstacle lies to the left of a line.
+        faces: Faces<'a>,
+    },
+    /// A rigid shape: each slave node against its nearest point.
+    RigidShape(Obstacle),
 }
 
 /// One of the two sides, checked.
@@ -72,14 +90,6 @@ impl<'a> Side<'a> {
             *x = self.position(node);
         }
         Face { kind: self.kind(nodes), nodes, x, is_ring: self.is_axisymmetric }
-    }
-
-    /// The same faces with the nodes at other places.
-    pub(super) fn moved<'b>(&self, coordinates: &'b [f64]) -> Side<'b>
-    where
-        'a: 'b,
-    {
-        Side { coordinates, ..*self }
     }
 
     /// Place of a node, in the unit of the pairing.
@@ -154,14 +164,23 @@ impl<'a> Side<'a> {
         Ok(side)
     }
 
-    /// The slave side, whose lists are in order.
-    pub(super) fn slave(
-        dim: usize,
-        coordinates: &'a [f64],
-        faces: Faces<'a>,
-    ) -> Result<Side<'a>, Error> {
-        checked_dim(dim)?;
-        Side::new("slave", Argument::SlaveFaces, (dim, coordinates), faces)
+    /// Master faces of the same mesh, whose nodes must not be on this side.
+    pub(super) fn opposite(&self, faces: Faces<'a>) -> Result<Side<'a>, Error> {
+        let side = Side { name: "master", argument: Argument::MasterFaces, faces, ..*self };
+        side.check_lists()?;
+        let mut is_own = vec![false; self.coordinates.len() / self.dim];
+        self.faces.nodes.iter().for_each(|&node| is_own[node] = true);
+        for face in 0..side.count() {
+            if let Some(&node) = side.nodes(face).iter().find(|&&node| is_own[node]) {
+                let what = format!(
+                    "has node {}, which is on the slave side too: give each side nodes of its own, \
+                     or leave out the faces around that node on one side",
+                    index(node)
+                );
+                return Err(side.refuse(face, &what));
+            }
+        }
+        Ok(side)
     }
 
     /// The argument that the coordinates are part of.
@@ -296,28 +315,5 @@ impl<'a> Side<'a> {
             }
         }
         Ok(())
-    }
-}
-
-impl<'a> Surfaces<'a> {
-    /// The two sides, slave and master, with their lists in order.
-    pub(super) fn sides(&self) -> Result<[Side<'a>; 2], Error> {
-        let slave = Side::slave(self.dim, self.coordinates, self.slave)?;
-        let side =
-            Side { name: "master", argument: Argument::MasterFaces, faces: self.master, ..slave };
-        side.check_lists()?;
-        let mut on_slave = vec![false; self.coordinates.len() / self.dim];
-        self.slave.nodes.iter().for_each(|&node| on_slave[node] = true);
-        for face in 0..side.count() {
-            if let Some(&node) = side.nodes(face).iter().find(|&&node| on_slave[node]) {
-                let what = format!(
-                    "has node {}, which is on the slave side too: give each side nodes of its own, \
-                     or leave out the faces around that node on one side",
-                    index(node)
-                );
-                return Err(side.refuse(face, &what));
-            }
-        }
-        Ok([slave, side])
     }
 }

@@ -5,12 +5,12 @@
 //!
 //! ```
 //! use signorini::{Monitor, Settings};
-//! use signorini::surface::{Faces, SurfaceSettings, Surfaces, pair_surfaces};
+//! use signorini::surface::{Faces, Master, SurfaceSettings, Surfaces, pair_surfaces};
 //!
 //! // A line of one element, 0 to 1, stands on one of two elements.
 //! let coordinates = [0.0, 0.1, 1.0, 0.1, -1.0, 0.0, 0.5, 0.0, 2.0, 0.0];
 //! let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
-//! let master = Faces { start: &[0, 2, 4], nodes: &[4, 3, 3, 2] };
+//! let master = Master::Faces(Faces { start: &[0, 2, 4], nodes: &[4, 3, 3, 2] });
 //! let surfaces = Surfaces { dim: 2, coordinates: &coordinates, slave, master };
 //! let monitor = &mut Monitor::new(&Settings::default(), None);
 //! let found = pair_surfaces(&surfaces, &SurfaceSettings::default(), monitor)?;
@@ -61,12 +61,11 @@ mod zones;
 
 pub use exact_shape::Obstacle;
 pub use fields::{NodalFields, PairResults, Resultant};
-pub use mesh::{Faces, Surfaces};
-pub use obstacle::pair_with_obstacle;
-pub use pair_surfaces::{RigidSurface, pair_surfaces, pair_with_rigid_surface};
+pub use mesh::{Faces, Master, Surfaces};
+pub use pair_surfaces::pair_surfaces;
 pub use pairs::{Fold, NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use penetration::{KeptSurfaces, Penetration};
 pub use settings::{Normals, Pairing, Rims, SurfaceSettings, TrueShape};
 pub use shape::FaceKind;
 pub use symmetry::SymmetryPlane;
-pub use zones::{ContactZone, ZoneSums, join_zones, summary_of_zones};
+pub use zones::{ContactZone, join_zones, summary_of_zones};

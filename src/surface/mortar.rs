@@ -54,7 +54,8 @@ pub(super) fn pairs<'a>(
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;
-    let mut report = SurfaceReport::new(slave.count(), candidates.reach.open);
+    let search_distance = candidates.reach.open;
+    let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
     let shapes = TrueSides::new(sides, &settings.shapes, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, planes, candidates, shapes, overlaps, polynomials };

@@ -112,7 +112,8 @@ pub(super) fn pairs(
             met.insert(node, meeting);
         }
     }
-    let mut report = SurfaceReport::new(slave.count(), candidates.reach.open);
+    let search_distance = candidates.reach.open;
+    let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
     let rows = whole_rows(|node| met.contains_key(&node), (slave, planes), &mut report, watch)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();

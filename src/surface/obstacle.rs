@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
-use super::mesh::{Faces, Side};
+use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::Row;
 use super::self_overlap;
@@ -14,28 +14,21 @@ use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
-use crate::monitor::Monitor;
 
 fn refuse<T>(message: &str) -> Result<T, Error> {
     Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
 }
 
-/// Pairs the nodes of a surface with an obstacle, up to the search distance (`None` or infinite: all of
-/// them). Of the settings it reads that, `axisymmetric`, `close_within` and `clearance`.
-///
-/// A mid node of a quadratic face has its corners beside it in its row, and the gap is that of the row.
+/// Pairs the nodes of a side, whose lists are in order, with an obstacle, up to the search distance (`None` or infinite: all of
+/// them).
 ///
 /// # Errors
-/// Faces that are wrong, as [`super::pair_surfaces`] says; an obstacle that is wrong
-/// ([`Argument::Obstacle`]): a direction that is zero, a radius that is not positive, a node on the axis
-/// or in the centre; a search distance that is not positive ([`Argument::Settings`]).
-pub fn pair_with_obstacle(
-    dim: usize,
-    coordinates: &[f64],
-    slave: Faces<'_>,
+/// As [`super::pair_surfaces`] says.
+pub(super) fn pairs(
+    side: Side<'_>,
     obstacle: &Obstacle,
     settings: &SurfaceSettings,
-    monitor: &mut Monitor<'_>,
+    watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let SurfaceSettings { search_distance, axisymmetric, close_within, clearance, .. } = *settings;
     let settings = &SurfaceSettings {
@@ -45,11 +38,9 @@ pub fn pair_with_obstacle(
         clearance,
         ..Default::default()
     };
-    settings.check(dim)?;
-    let watch = &mut Watch::new(monitor);
-    let side = Side::slave(dim, coordinates, slave)?;
+    settings.check(side.dim)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
-    let obstacle = obstacle.check(dim, unit.inside).or_else(|message| refuse(&message))?;
+    let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
     let side = side.checked((unit.inside, axisymmetric), watch)?;
     let reach = side.scale * search_distance.unwrap_or(f64::INFINITY);
     let planes = OnPlanes::new(&side, (&settings.symmetry, axisymmetric))?;
@@ -65,8 +56,9 @@ pub fn pair_with_obstacle(
         };
         facing.insert(node, met);
     }
-    let mut report = SurfaceReport::new(side.count(), reach);
-    report.looking_away = looking_away(&side, &obstacle);
+    let looking_away = looking_away(&side, &obstacle);
+    let mut report =
+        SurfaceReport { search_distance: reach, looking_away, ..SurfaceReport::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
     let rows = whole_rows(meets, (&side, &planes), &mut report, watch)?;
     let pair = |node, row: Row| {

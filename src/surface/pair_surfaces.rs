@@ -1,84 +1,72 @@
-//! Two surfaces, or a surface and a rigid one, to pairs. A rigid surface is a mesh of its own: it is paired as a master is,
-//! and then left out of the rows, as it does not move.
+//! A surface and what it may touch to pairs. A rigid mesh is paired as a master is, and then left out of the rows, as it does
+//! not move.
 
 use super::candidates::{Candidates, Reach, SearchFaces};
-use super::mesh::{Faces, Side, Surfaces};
+use super::mesh::{Master, Side, Surfaces};
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings};
 use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
-use super::{mortar, node_to_surface, self_overlap};
+use super::{mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
+use crate::problem::checked_dim;
 
 /// The default search distance beside the diagonal of the smaller of the two sides' boxes: displacements that are small
 /// beside the bodies do not reach further.
 const OF_BOX: f64 = 0.5;
 
-/// A surface that does not deform, with coordinates of its own: triangles of a scan or of a drawing, or any
-/// other faces.
-#[derive(Clone, Copy, Debug)]
-pub struct RigidSurface<'a> {
-    /// Coordinates of its nodes, `dim` for each node.
-    pub coordinates: &'a [f64],
-    /// Its faces, in nodes of its own counted from 0; seen from the body that may touch them the corners
-    /// run counterclockwise, in the plane the obstacle lies to the left of a line.
-    pub faces: Faces<'a>,
-}
-
-/// Pairs two surfaces. Surfaces that never meet give no pairs, which is no error. `monitor` has the time limit and
-/// the callback.
+/// Pairs a surface with what it may touch. Surfaces that never meet give no pairs, which is no error. `monitor` has the
+/// time limit and the callback.
+///
+/// With a shape `search_distance`, `axisymmetric`, `close_within` and `clearance` are read of the settings. A mid node of a
+/// quadratic face has its corners beside it in its row then, and the gap is that of the row.
 ///
 /// # Errors
 /// - [`Argument::Dimension`], [`Argument::Coordinates`]: a dimension other than 2 and 3, coordinates that are
 ///   not finite, or so large or small that areas are no numbers;
-/// - [`Argument::SlaveFaces`], [`Argument::MasterFaces`]: what is wrong with which face: number of nodes,
-///   repeated or missing nodes, no area, folded, turned over against its neighbour, nodes on both
+/// - [`Argument::SlaveFaces`], [`Argument::MasterFaces`], [`Argument::Obstacle`] of rigid ones: what is wrong with which face:
+///   number of nodes, repeated or missing nodes, no area, folded, turned over against its neighbour, nodes on both
 ///   sides, faces of one side that lie upon each other, master faces over each other (of masters with
 ///   [`Pairing::DualMortar`] alone: otherwise the nearest counts), a negative radius of a body of revolution;
+/// - [`Argument::Obstacle`] of a shape: a direction that is zero, a radius that is not positive, a node on the axis or in the
+///   centre;
 /// - [`Argument::Settings`]: a search distance that is not positive; a plane of symmetry across no axis of the space,
 ///   with slave nodes on both sides, or with slave faces in it; a choice for rims with
 ///   [`Pairing::NodeToSurface`]; bodies of revolution in space;
 /// - [`Error::Stopped`]: the time limit is used up, or the callback cancels.
 pub fn pair_surfaces(
-    surfaces: &Surfaces<'_>,
+    &Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>,
     settings: &SurfaceSettings,
     monitor: &mut Monitor<'_>,
 ) -> Result<SurfacePairs, Error> {
-    pair_sides(surfaces.sides()?, settings, monitor)
-}
-
-/// Pairs a surface with a rigid one. Rows have slaves alone; gaps are those that two deformable surfaces of
-/// the same places have.
-///
-/// # Errors
-/// As [`pair_surfaces`]; what is wrong with the rigid surface has [`Argument::Obstacle`].
-pub fn pair_with_rigid_surface(
-    dim: usize,
-    coordinates: &[f64],
-    slave: Faces<'_>,
-    rigid: &RigidSurface<'_>,
-    settings: &SurfaceSettings,
-    monitor: &mut Monitor<'_>,
-) -> Result<SurfacePairs, Error> {
-    let slave = Side::slave(dim, coordinates, slave)?;
-    let RigidSurface { coordinates, faces } = *rigid;
-    let obstacle = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-    let found = pair_sides([slave, obstacle], settings, monitor)?;
-    let pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
-    Ok(SurfacePairs { pairs, ..found })
+    let watch = &mut Watch::new(monitor);
+    checked_dim(dim)?;
+    let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)?;
+    match master {
+        Master::Faces(faces) => {
+            let master = slave.opposite(faces)?;
+            pair_sides([slave, master], settings, watch)
+        }
+        Master::RigidFaces { coordinates, faces } => {
+            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
+            let found = pair_sides([slave, rigid], settings, watch)?;
+            let pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
+            Ok(SurfacePairs { pairs, ..found })
+        }
+        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, watch),
+    }
 }
 
 /// Pairs two sides whose lists are in order.
 fn pair_sides(
     [slave, master]: [Side<'_>; 2],
     settings: &SurfaceSettings,
-    monitor: &mut Monitor<'_>,
+    watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     settings.check(slave.dim)?;
-    let watch = &mut Watch::new(monitor);
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;

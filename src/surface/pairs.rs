@@ -164,13 +164,6 @@ impl SurfacePair {
     }
 }
 
-impl SurfaceReport {
-    /// The report that begins on so many slave faces.
-    pub(super) fn new(slave_faces: usize, search_distance: f64) -> SurfaceReport {
-        SurfaceReport { search_distance, slave_faces, ..SurfaceReport::default() }
-    }
-}
-
 /// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
 pub(super) fn without_rounding(distance: f64, size: f64) -> f64 {
     if distance.abs() <= ROUNDING * size { 0.0 } else { distance }

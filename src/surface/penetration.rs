@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::exact_shape::Obstacle;
 use super::face::Face;
-use super::mesh::{Faces, Side};
+use super::mesh::{Faces, Master, Side, Surfaces};
 use super::node_to_surface::is_on;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
@@ -28,26 +28,22 @@ const LEAST: f64 = 1e-6;
 /// small share of their size.
 const LEAST_OF_PAIRED: f64 = 0.1;
 
-/// What the slave faces.
-#[derive(Clone, Debug)]
-enum Opposite {
-    /// Faces that move, or a rigid mesh with coordinates of its own.
-    Faces {
-        lists: [Vec<usize>; 2],
-        rigid: Option<Vec<f64>>,
-    },
-    Shape(Obstacle),
-}
-
 /// Copies of both sides before the motion, for [`Self::penetration`].
 #[derive(Clone, Debug)]
 pub struct KeptSurfaces {
     dim: usize,
-    /// Nodes of the host that stand on a side, ascending; lists of faces count them by their place here.
+    /// Nodes of the host that stand on a side, ascending.
     nodes: Vec<usize>,
+    /// Those of these nodes, then those of a rigid mesh; lists of faces count nodes by their places here.
     coordinates: Vec<f64>,
     slave: [Vec<usize>; 2],
-    opposite: Opposite,
+    master: KeptMaster,
+}
+
+#[derive(Clone, Debug)]
+enum KeptMaster {
+    Faces([Vec<usize>; 2]),
+    Shape(Obstacle),
 }
 
 /// How far the slave has passed through the master.
@@ -76,13 +72,10 @@ struct Held {
 }
 
 impl KeptSurfaces {
-    /// Keeps a slave side and faces of the same mesh opposite.
-    pub fn new(
-        (dim, coordinates): (usize, &[f64]),
-        slave: Faces<'_>,
-        master: Faces<'_>,
-    ) -> KeptSurfaces {
-        let mut nodes = [slave.nodes, master.nodes].concat();
+    /// Keeps surfaces that have been paired.
+    pub fn new(&Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>) -> KeptSurfaces {
+        let of_mesh = if let Master::Faces(faces) = master { faces.nodes } else { &[] };
+        let mut nodes = [slave.nodes, of_mesh].concat();
         nodes.sort_unstable();
         nodes.dedup();
         let mut places = vec![0; nodes.last().map_or(0, |last| last + 1)];
@@ -91,29 +84,17 @@ impl KeptSurfaces {
             [faces.start.to_vec(), faces.nodes.iter().map(|&node| places[node]).collect()]
         };
         let kept = |node: &usize| coordinates[dim * node..dim * (node + 1)].to_vec();
-        KeptSurfaces {
-            dim,
-            slave: lists(slave),
-            coordinates: nodes.iter().flat_map(kept).collect(),
-            opposite: Opposite::Faces { lists: lists(master), rigid: None },
-            nodes,
-        }
-    }
-
-    /// Keeps a slave side against a rigid mesh with coordinates of its own.
-    pub fn against_faces(
-        host: (usize, &[f64]),
-        slave: Faces<'_>,
-        (rigid, faces): (&[f64], Faces<'_>),
-    ) -> KeptSurfaces {
-        let lists = [faces.start.to_vec(), faces.nodes.to_vec()];
-        let opposite = Opposite::Faces { lists, rigid: Some(rigid.to_vec()) };
-        KeptSurfaces { opposite, ..KeptSurfaces::new(host, slave, NONE) }
-    }
-
-    /// Keeps a slave side against a rigid shape.
-    pub fn against_shape(host: (usize, &[f64]), slave: Faces<'_>, shape: Obstacle) -> KeptSurfaces {
-        KeptSurfaces { opposite: Opposite::Shape(shape), ..KeptSurfaces::new(host, slave, NONE) }
+        let mut kept: Vec<f64> = nodes.iter().flat_map(kept).collect();
+        let master = match master {
+            Master::Faces(faces) => KeptMaster::Faces(lists(faces)),
+            Master::RigidFaces { coordinates, faces } => {
+                kept.extend(coordinates);
+                let places = faces.nodes.iter().map(|node| nodes.len() + node);
+                KeptMaster::Faces([faces.start.to_vec(), places.collect()])
+            }
+            Master::RigidShape(shape) => KeptMaster::Shape(shape),
+        };
+        KeptSurfaces { dim, slave: lists(slave), coordinates: kept, nodes, master }
     }
 
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
@@ -129,17 +110,16 @@ impl KeptSurfaces {
         monitor: &mut Monitor<'_>,
     ) -> Result<Penetration, Error> {
         let axes = self.nodes.iter().flat_map(|&node| (0..self.dim).map(move |axis| (node, axis)));
-        let moved: Vec<f64> =
-            self.coordinates.iter().zip(axes).map(|(x, (node, axis))| x + u(node, axis)).collect();
+        let mut moved = self.coordinates.clone();
+        moved.iter_mut().zip(axes).for_each(|(x, (node, axis))| *x += u(node, axis));
         if moved.iter().any(|x| !x.is_finite()) {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
         let watch = &mut Watch::new(monitor);
         let held = &self.held(pairs);
-        let slave = self.side("slave", &self.coordinates, &self.slave)?;
-        let slaves = [slave.moved(&self.coordinates), slave.moved(&moved)];
-        match &self.opposite {
-            Opposite::Shape(shape) => {
+        let slaves = self.before_and_after("slave", &moved, &self.slave)?;
+        match &self.master {
+            KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
@@ -148,28 +128,23 @@ impl KeptSurfaces {
                     (before <= least).then_some((now, None))
                 })
             }
-            Opposite::Faces { lists, rigid } => {
-                if held.asked.is_empty() {
-                    return Ok(Penetration::default());
-                }
-                let (name, [before, after]) = match rigid {
-                    None => ("master", [&self.coordinates, &moved]),
-                    Some(rigid) => ("obstacle", [rigid, rigid]),
-                };
-                let master = self.side(name, before, lists)?;
-                let masters = [master.moved(before), master.moved(after)];
+            KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
+            KeptMaster::Faces(lists) => {
+                let masters = self.before_and_after("master", &moved, lists)?;
                 self.through_faces(held, [&slaves, &masters], watch)
             }
         }
     }
 
-    fn side<'s>(
-        &self,
+    fn before_and_after<'s>(
+        &'s self,
         name: &'static str,
-        x: &'s [f64],
+        moved: &'s [f64],
         [start, nodes]: &'s [Vec<usize>; 2],
-    ) -> Result<Side<'s>, Error> {
-        Side::new(name, Argument::Coordinates, (self.dim, x), Faces { start, nodes })
+    ) -> Result<[Side<'s>; 2], Error> {
+        let faces = Faces { start, nodes };
+        let side = |x| Side::new(name, Argument::Coordinates, (self.dim, x), faces);
+        Ok([side(&self.coordinates)?, side(moved)?])
     }
 
     fn held(&self, pairs: &SurfacePairs) -> Held {
@@ -253,6 +228,3 @@ impl KeptSurfaces {
         Ok(found)
     }
 }
-
-/// A side without faces.
-const NONE: Faces<'static> = Faces { start: &[0], nodes: &[] };

@@ -1,9 +1,7 @@
-//! Contact zones in one set of pairs, one zone after the other, and what each of them carries.
+//! Contact zones in one set of pairs, one zone after the other.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
-use super::fields::{PairResults, Resultant};
 use super::mesh::Faces;
 use super::pairs::{SurfacePairs, SurfaceReport};
 use crate::error::{Argument, Error, Message, index};
@@ -17,15 +15,6 @@ pub struct ContactZone<'a> {
     pub contact: &'a SurfacePairs,
     /// The slave side.
     pub slave: Faces<'a>,
-}
-
-/// What a zone carries.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ZoneSums {
-    /// Its resultant about the origin.
-    pub resultant: Resultant,
-    /// The largest pressure of a pair; 0 if none presses.
-    pub largest_pressure: f64,
 }
 
 /// Joins zones. A node may be slave in one zone and master in another, and a slave node of several zones by faces of its
@@ -115,23 +104,5 @@ impl SurfaceReport {
         self.folded.extend(&other.folded);
         self.not_opposed += other.not_opposed;
         self.boxes_searched += other.boxes_searched;
-    }
-}
-
-impl SurfacePairs {
-    /// What some of the pairs carry.
-    ///
-    /// # Errors
-    /// As [`Self::resultant`].
-    pub fn sums_of(
-        &self,
-        pairs: Range<usize>,
-        results: &PairResults<'_>,
-    ) -> Result<ZoneSums, Error> {
-        let pressure = |pair: usize| -results.force[self.dim * pair] / self.pairs[pair].area;
-        Ok(ZoneSums {
-            resultant: self.resultant_of(pairs.clone(), results, &[0.0; 3][..self.dim])?,
-            largest_pressure: pairs.map(pressure).fold(0.0, f64::max),
-        })
     }
 }

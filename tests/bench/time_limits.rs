@@ -18,7 +18,7 @@ use common::brick::{Brick, Support};
 use common::problems::{Case, Law};
 use common::wavy::Wavy;
 use signorini::surface::{
-    Faces, Obstacle, Pairing, SurfaceSettings, Surfaces, pair_surfaces, pair_with_obstacle,
+    Faces, Master, Obstacle, Pairing, SurfaceSettings, Surfaces, pair_surfaces,
 };
 use signorini::{
     ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase, Method, Model,
@@ -276,8 +276,9 @@ fn all_surfaces() {
     let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
     told("Q4 on a rigid plane", |look| {
         let monitor = &mut Monitor::new(&Settings::default(), Some(look));
-        let faces = Faces { start: &start, nodes: &faces };
-        pair_with_obstacle(3, &coordinates, faces, &plane, &dual, monitor).ok();
+        let (slave, master) = (Faces { start: &start, nodes: &faces }, Master::RigidShape(plane));
+        let surfaces = Surfaces { dim: 3, coordinates: &coordinates, slave, master };
+        pair_surfaces(&surfaces, &dual, monitor).ok();
     });
 }
 
@@ -286,6 +287,7 @@ fn paired(name: &str, sheets: &TwoSheets, settings: &SurfaceSettings) {
     let [slave, master] = [flat(&sheets.slave), flat(&sheets.master)];
     told(name, |look| {
         let [slave, master] = [&slave, &master].map(|(start, nodes)| Faces { start, nodes });
+        let master = Master::Faces(master);
         let surfaces = Surfaces { dim: 3, coordinates: &coordinates, slave, master };
         pair_surfaces(&surfaces, settings, &mut Monitor::new(&Settings::default(), Some(look)))
             .ok();

@@ -1,7 +1,9 @@
 //! Two flat surfaces of any kind of face for the tests of the pairing, and sums over their rows.
 
 use fastrand::Rng;
-use signorini::surface::{Faces, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces};
+use signorini::surface::{
+    Faces, Master, Obstacle, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces,
+};
 use signorini::{Monitor, Settings};
 
 /// A list of faces with coordinates of its own nodes.
@@ -183,8 +185,20 @@ pub fn pair(
         dim,
         coordinates: &coordinates,
         slave: Faces { start: &slave.0, nodes: &slave.1 },
-        master: Faces { start: &master.0, nodes: &master.1 },
+        master: Master::Faces(Faces { start: &master.0, nodes: &master.1 }),
     };
+    pair_surfaces(&surfaces, settings, &mut unlimited())
+}
+
+/// Pairs of a surface with an obstacle.
+pub fn pair_with_obstacle(
+    dim: usize,
+    coordinates: &[f64],
+    slave: Faces<'_>,
+    obstacle: &Obstacle,
+    settings: &SurfaceSettings,
+) -> Result<SurfacePairs, signorini::Error> {
+    let surfaces = Surfaces { dim, coordinates, slave, master: Master::RigidShape(*obstacle) };
     pair_surfaces(&surfaces, settings, &mut unlimited())
 }
 

@@ -1,10 +1,10 @@
 //! Slave nodes moved onto the other side: ties of curved sides whose meshes do not match, and obstacles.
 
 use crate::common::solids::{Cells, Order, Point, Solid};
-use crate::surfaces::{SHAPES, Shape, Sheet, flat, pair, steps, unlimited};
+use crate::surfaces::{SHAPES, Shape, Sheet, flat, pair, pair_with_obstacle, steps, unlimited};
 use fastrand::Rng;
 use signorini::reduce::ContactPairs;
-use signorini::surface::{Faces, Obstacle, SurfacePairs, SurfaceSettings, pair_with_obstacle};
+use signorini::surface::{Faces, Obstacle, SurfacePairs, SurfaceSettings};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 const YOUNG: f64 = 1000.0;
@@ -121,7 +121,7 @@ fn onto(sheet: &Sheet, obstacle: &Obstacle, within: f64) -> Vec<Point> {
     let (start, nodes) = flat(&sheet.faces);
     let (x, faces) = (sheet.nodes.concat(), Faces { start: &start, nodes: &nodes });
     let settings = SurfaceSettings::default();
-    let found = pair_with_obstacle(3, &x, faces, obstacle, &settings, &mut unlimited()).unwrap();
+    let found = pair_with_obstacle(3, &x, faces, obstacle, &settings).unwrap();
     let mut moved = x;
     found.adjust(within, &mut moved, &mut unlimited()).unwrap();
     moved.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()

@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
-use crate::surfaces::{SHAPES, Shape, Sheet, flat, line, pair, steps, unlimited};
+use crate::surfaces::{
+    SHAPES, Shape, Sheet, flat, line, pair, pair_with_obstacle, steps, unlimited,
+};
 use fastrand::Rng;
 use signorini::Argument;
 use signorini::surface::{
-    Faces, Obstacle, Pairing, RigidSurface, SurfaceSettings, pair_with_obstacle,
-    pair_with_rigid_surface,
+    Faces, Master, Obstacle, Pairing, SurfaceSettings, Surfaces, pair_surfaces,
 };
 
 const UNIT: [[f64; 2]; 2] = [[0.0, 1.0], [0.0, 1.0]];
@@ -212,13 +213,13 @@ fn masters_and_obstacles_are_compared_too() {
     let faces = Faces { start: &start, nodes: &nodes };
     let (obstacle_start, obstacle_nodes) = flat(&master.faces);
     let obstacle = master.nodes.concat();
-    let rigid = RigidSurface {
+    let master = Master::RigidFaces {
         coordinates: &obstacle,
         faces: Faces { start: &obstacle_start, nodes: &obstacle_nodes },
     };
     let settings = &SurfaceSettings::default();
-    let error = pair_with_rigid_surface(3, &coordinates, faces, &rigid, settings, &mut unlimited());
-    let error = error.unwrap_err().to_string();
+    let surfaces = Surfaces { dim: 3, coordinates: &coordinates, slave: faces, master };
+    let error = pair_surfaces(&surfaces, settings, &mut unlimited()).unwrap_err().to_string();
     assert!(error.starts_with("obstacle face 1 lies upon face 0"), "{error}");
 
     let twice = together(slave.clone(), slave);
@@ -226,8 +227,7 @@ fn masters_and_obstacles_are_compared_too() {
     let (start, nodes) = flat(&twice.faces);
     let faces = Faces { start: &start, nodes: &nodes };
     let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
-    let error = pair_with_obstacle(3, &coordinates, faces, &plane, settings, &mut unlimited())
-        .unwrap_err()
-        .to_string();
+    let error =
+        pair_with_obstacle(3, &coordinates, faces, &plane, settings).unwrap_err().to_string();
     assert!(error.starts_with("slave face 4 lies upon face 0"), "{error}");
 }

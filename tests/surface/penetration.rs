@@ -4,8 +4,8 @@ use crate::common::mesh::{Mesh, steps};
 use crate::surfaces::{flat, unlimited};
 use signorini::reduce::ContactPairs;
 use signorini::surface::{
-    Faces, KeptSurfaces, Obstacle, Penetration, SurfacePairs, SurfaceSettings, Surfaces,
-    pair_surfaces, pair_with_obstacle,
+    Faces, KeptSurfaces, Master, Obstacle, Penetration, SurfacePairs, SurfaceSettings, Surfaces,
+    pair_surfaces,
 };
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
@@ -57,37 +57,15 @@ impl Beam {
         let master = Faces { start: &of_start, nodes: &of_nodes };
         let x = mesh.nodes.concat();
         let settings = &SurfaceSettings { search_distance, ..SurfaceSettings::default() };
-        let (found, kept) = match below {
-            Below::Plane => (
-                pair_with_obstacle(2, &x, slave, &PLANE, settings, &mut unlimited()),
-                KeptSurfaces::against_shape((2, &x), slave, PLANE),
-            ),
-            Below::Block => (
-                pair_surfaces(
-                    &Surfaces { dim: 2, coordinates: &x, slave, master },
-                    settings,
-                    &mut unlimited(),
-                ),
-                KeptSurfaces::new((2, &x), slave, master),
-            ),
-            Below::Line => {
-                let (ends, line) =
-                    ([21.0, -GAP, -1.0, -GAP], Faces { start: &[0, 2], nodes: &[0, 1] });
-                let rigid = signorini::surface::RigidSurface { coordinates: &ends, faces: line };
-                (
-                    signorini::surface::pair_with_rigid_surface(
-                        2,
-                        &x,
-                        slave,
-                        &rigid,
-                        settings,
-                        &mut unlimited(),
-                    ),
-                    KeptSurfaces::against_faces((2, &x), slave, (&ends, line)),
-                )
-            }
+        let (ends, line) = ([21.0, -GAP, -1.0, -GAP], Faces { start: &[0, 2], nodes: &[0, 1] });
+        let master = match below {
+            Below::Plane => Master::RigidShape(PLANE),
+            Below::Block => Master::Faces(master),
+            Below::Line => Master::RigidFaces { coordinates: &ends, faces: line },
         };
-        Beam { mesh, first_of_block, found: found.unwrap(), kept }
+        let surfaces = Surfaces { dim: 2, coordinates: &x, slave, master };
+        let found = pair_surfaces(&surfaces, settings, &mut unlimited()).unwrap();
+        Beam { mesh, first_of_block, found, kept: KeptSurfaces::new(&surfaces) }
     }
 
     /// What is found after displacements of all degrees of freedom.
@@ -205,7 +183,8 @@ fn what_is_no_shape_is_refused() {
     let nowhere = Obstacle::Plane { point: [0.0; 3], outward };
     let x = beam.mesh.nodes.concat();
     let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
-    let kept = KeptSurfaces::against_shape((2, &x), slave, nowhere);
+    let master = Master::RigidShape(nowhere);
+    let kept = KeptSurfaces::new(&Surfaces { dim: 2, coordinates: &x, slave, master });
     let refused = kept.penetration(&beam.found, |_, _| 0.0, &mut unlimited()).unwrap_err();
     assert!(refused.to_string().contains("its outward direction is zero"), "{refused}");
     let refused = beam.kept.penetration(&beam.found, |_, _| f64::NAN, &mut unlimited());

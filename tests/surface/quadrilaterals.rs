@@ -2,7 +2,9 @@
 //! the place that it stands above.
 
 use fastrand::Rng;
-use signorini::surface::{Faces, Pairing, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces};
+use signorini::surface::{
+    Faces, Master, Pairing, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces,
+};
 
 type Point = [f64; 2];
 
@@ -65,7 +67,7 @@ fn pairs(corners: &[Point; 4], triangles: &[[Point; 3]]) -> SurfacePairs {
         dim: 3,
         coordinates: &coordinates,
         slave: Faces { start: &start, nodes: &nodes },
-        master: Faces { start: &[0, 4], nodes: &master },
+        master: Master::Faces(Faces { start: &[0, 4], nodes: &master }),
     };
     let settings = SurfaceSettings {
         pairing: Pairing::NodeToSurface,

@@ -3,11 +3,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, line, pair, steps, unlimited};
+use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, line, pair, pair_with_obstacle, steps};
 use fastrand::Rng;
 use signorini::surface::{
-    Faces, Normals, Obstacle, PairResults, Pairing, Rims, SurfacePairs, SurfaceSettings,
-    SymmetryPlane, pair_with_obstacle,
+    Faces, Master, Normals, Obstacle, PairResults, Pairing, Rims, SurfacePairs, SurfaceSettings,
+    SymmetryPlane,
 };
 use signorini::{Error, Limit, Monitor, Progress, Settings};
 
@@ -207,7 +207,7 @@ fn gaps_to_an_obstacle_do_not_depend_on_the_unit() {
         let disc = Obstacle::Sphere { centre: [0.1 * by, 0.0, 0.0], radius: by, hollow: false };
         let settings =
             SurfaceSettings { search_distance: Some(0.5 * by), ..SurfaceSettings::default() };
-        pair_with_obstacle(2, &coordinates, slave, &disc, &settings, &mut unlimited()).unwrap()
+        pair_with_obstacle(2, &coordinates, slave, &disc, &settings).unwrap()
     };
     let one = found(1.0);
     assert_eq!(one.pairs.len(), 3);
@@ -258,13 +258,12 @@ fn callback_and_clock_end_a_pairing() {
             if cancels { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let monitor = &mut Monitor::new(settings, Some(&mut progress));
-        let surfaces =
-            signorini::surface::Surfaces { dim: 3, coordinates: &coordinates, slave, master };
         let pairing = SurfaceSettings::default();
-        let errors = [
-            signorini::surface::pair_surfaces(&surfaces, &pairing, monitor).unwrap_err(),
-            pair_with_obstacle(3, &coordinates, slave, &plane, &pairing, monitor).unwrap_err(),
-        ];
+        let errors = [Master::Faces(master), Master::RigidShape(plane)].map(|master| {
+            let surfaces =
+                signorini::surface::Surfaces { dim: 3, coordinates: &coordinates, slave, master };
+            signorini::surface::pair_surfaces(&surfaces, &pairing, monitor).unwrap_err()
+        });
         errors.map(|error| match error {
             Error::Stopped { limit, message } => (limit, message.to_string()),
             other => panic!("{other}"),

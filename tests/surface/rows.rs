@@ -3,12 +3,11 @@
 
 use crate::surfaces::{
     SHAPES, Shape, Sheet, TwoSheets, exact_loads, flat, grid, line, most_moved, nodal_forces, pair,
-    steps, unlimited,
+    pair_with_obstacle, steps, unlimited,
 };
 use fastrand::Rng;
 use signorini::surface::{
-    Faces, Obstacle, Pairing, RigidSurface, SurfacePairs, SurfaceSettings, pair_with_obstacle,
-    pair_with_rigid_surface,
+    Faces, Master, Obstacle, Pairing, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces,
 };
 
 /// Two lines: nodes, slave faces, master faces, turned by `angle`.
@@ -418,7 +417,7 @@ fn facing(
     search_distance: Option<f64>,
 ) -> Result<SurfacePairs, signorini::Error> {
     let settings = SurfaceSettings { search_distance, ..SurfaceSettings::default() };
-    pair_with_obstacle(3, coordinates, slave, obstacle, &settings, &mut unlimited())
+    pair_with_obstacle(3, coordinates, slave, obstacle, &settings)
 }
 
 /// Gaps and normals of nodes against obstacles, by elementary geometry.
@@ -498,13 +497,12 @@ fn rigid_meshes_face_nodes() {
     let found = |obstacle: &Sheet, pairing| {
         let (start, nodes) = flat(&obstacle.faces);
         let own = obstacle.nodes.concat();
-        let rigid =
-            RigidSurface { coordinates: &own, faces: Faces { start: &start, nodes: &nodes } };
+        let master =
+            Master::RigidFaces { coordinates: &own, faces: Faces { start: &start, nodes: &nodes } };
         let settings =
             SurfaceSettings { pairing, search_distance: Some(2.0), ..SurfaceSettings::default() };
-        let found =
-            pair_with_rigid_surface(3, &coordinates, faces, &rigid, &settings, &mut unlimited())
-                .unwrap();
+        let surfaces = Surfaces { dim: 3, coordinates: &coordinates, slave: faces, master };
+        let found = pair_surfaces(&surfaces, &settings, &mut unlimited()).unwrap();
         let both = TwoSheets::new(3, slave.clone(), obstacle.clone()).pair(&settings).unwrap();
         assert_eq!(found.pairs.len(), 20);
         for (pair, other) in found.pairs.iter().zip(&both.pairs) {
