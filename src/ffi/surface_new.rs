@@ -7,14 +7,17 @@ use super::args::{Arrays, c_entry};
 use super::guard::{Outcome, refused};
 use super::handle::release;
 use super::pairs::SignoriniPairs;
+use super::settings::ParsedSettings;
 use super::structures::Structure;
 use super::surface::{SIGNORINI_OBSTACLE_FACES, SignoriniFaces, SignoriniObstacle};
-use super::surface_settings::{Numbering, ParsedSurfaceSettings, SignoriniSurfaceSettings};
+use super::surface_settings::{Numbering, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error, Message};
 use crate::monitor::Monitor;
 use crate::problem;
 use crate::settings::Settings;
-use crate::surface::{KeptSurfaces, Master, PairArrays, SurfacePairs, Surfaces, pair_surfaces};
+use crate::surface::{
+    KeptSurfaces, Master, PairArrays, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces,
+};
 
 /// Contact pairs that the library made from surfaces. It does not change: several threads may use
 /// one at once. It holds copies: your arrays may go once it is made. signorini_surface_free
@@ -78,7 +81,7 @@ pub unsafe extern "C" fn signorini_surface_pair(
     c_entry!(|arrays| {
         let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
-        let base = host.received.numbering.base;
+        let base = host.numbering.base;
         let master = SignoriniFaces::read(arrays.at(5, "master"), master, base)?;
         place.fill(host.pairs(Master::Faces(SignoriniFaces::view(&master))), position)
     })
@@ -110,7 +113,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
         let at = arrays.at(5, "obstacle");
         let given = at.whole(obstacle)?;
         let pairs = if given.kind == SIGNORINI_OBSTACLE_FACES {
-            let base = host.received.numbering.base;
+            let base = host.numbering.base;
             let (coordinates, faces) = given.mesh(at, host.dim, base)?;
             let faces = SignoriniFaces::view(&faces);
             host.pairs(Master::RigidFaces { coordinates, faces })
@@ -171,7 +174,9 @@ struct Host<'h> {
     dim: usize,
     coordinates: &'h [f64],
     slave: [Vec<usize>; 2],
-    received: ParsedSurfaceSettings,
+    settings: SurfaceSettings,
+    limits: ParsedSettings,
+    numbering: Numbering,
 }
 
 impl<'h> Host<'h> {
@@ -189,15 +194,14 @@ impl<'h> Host<'h> {
         };
         let coordinates = arrays.at(3, "coordinates").required(coordinates, length)?;
         let at_settings = arrays.at(6, "settings");
-        let received = SignoriniSurfaceSettings::read(at_settings, settings, (dim, nodes))?;
-        let base = received.numbering.base;
-        let slave = SignoriniFaces::read(arrays.at(4, "slave"), slave, base)?;
-        Ok(Host { dim, coordinates, slave, received })
+        let (settings, limits, numbering) =
+            SignoriniSurfaceSettings::read(at_settings, settings, (dim, nodes))?;
+        let slave = SignoriniFaces::read(arrays.at(4, "slave"), slave, numbering.base)?;
+        Ok(Host { dim, coordinates, slave, settings, limits, numbering })
     }
 
     fn pairs(self, master: Master<'_>) -> Result<SignoriniSurfacePairs, Error> {
-        let Host { dim, coordinates, slave, received } = self;
-        let ParsedSurfaceSettings { settings, limits, numbering } = received;
+        let Host { dim, coordinates, slave, settings, limits, numbering } = self;
         let faces = SignoriniFaces::view(&slave);
         let surfaces = Surfaces { dim, coordinates, slave: faces, master };
         let (found, kept) = limits.monitored(|monitor| {
@@ -234,7 +238,7 @@ impl SignoriniSurfacePairs {
         let counted = |values: Vec<usize>| -> Vec<i64> {
             values.into_iter().map(|value| value as i64 + base).collect()
         };
-        let mut arrays = found.rows_on(numbering.dofs());
+        let mut arrays = found.rows_on(&numbering.dofs);
         let indices =
             [&mut arrays.master_start, &mut arrays.masters].map(|list| counted(take(list)));
         let slaves: Vec<usize> = found.pairs.iter().map(|pair| pair.slave).collect();
@@ -279,7 +283,7 @@ impl SignoriniSurfacePairs {
 
     /// Degrees of freedom of all nodes of the host, `dim` for each.
     pub(super) fn dofs(&self) -> Vec<usize> {
-        let dofs = self.numbering.dofs();
+        let Numbering { dofs, .. } = &self.numbering;
         (0..self.nodes).flat_map(|node| dofs.of(node, self.found.dim)).collect()
     }
 }

@@ -100,27 +100,7 @@ pub struct SignoriniSurfaceSettings {
 #[derive(Clone, PartialEq)]
 pub(super) struct Numbering {
     pub(super) base: i64,
-    /// Degrees of freedom of each node if they are in order.
-    pub(super) per_node: usize,
-    /// Or all of them.
-    pub(super) listed: Option<Vec<usize>>,
-}
-
-impl Numbering {
-    pub(super) fn dofs(&self) -> NodeDofs<'_> {
-        match &self.listed {
-            Some(dofs) => NodeDofs::Listed(dofs),
-            None => NodeDofs::PerNode(self.per_node),
-        }
-    }
-}
-
-/// Settings of a pairing as the host gave them.
-pub(super) struct ParsedSurfaceSettings {
-    pub(super) settings: SurfaceSettings,
-    pub(super) numbering: Numbering,
-    /// The limit of time and the callback.
-    pub(super) limits: ParsedSettings,
+    pub(super) dofs: NodeDofs,
 }
 
 // SAFETY: led by its size; numbers, pointers and a callback.
@@ -136,12 +116,13 @@ unsafe impl Structure for SignoriniSurfaceSettings {
 }
 
 impl SignoriniSurfaceSettings {
-    /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates.
+    /// Reads the caller's structure, NULL for the defaults, for `nodes` nodes of `dim` coordinates: settings, the limit of time
+    /// with the callback, and the numbering.
     pub(super) fn read(
         at: At<'_>,
         pointer: *const Self,
         (dim, nodes): (usize, usize),
-    ) -> Outcome<ParsedSurfaceSettings> {
+    ) -> Outcome<(SurfaceSettings, ParsedSettings, Numbering)> {
         let given = at.copy(pointer)?;
         let pairing = at.chosen("pairing", given.pairing)?;
         let normals = at.chosen("choice of normals", given.normals)?;
@@ -158,7 +139,10 @@ impl SignoriniSurfaceSettings {
         }
         // The coordinates have as many entries.
         let dofs = at.named("node_dofs").optional(given.node_dofs, dim * nodes)?;
-        let listed = dofs.map(|dofs| at.field("node_dofs").shifted(dofs, base)).transpose()?;
+        let dofs = match dofs {
+            Some(dofs) => NodeDofs::Listed(at.field("node_dofs").shifted(dofs, base)?),
+            None => NodeDofs::PerNode(per_node),
+        };
         let symmetry = given.symmetry(at)?;
         let settings = SurfaceSettings {
             pairing,
@@ -181,8 +165,7 @@ impl SignoriniSurfaceSettings {
             ..SignoriniSettings::default_one()
         };
         let limits = limits.parsed(at)?;
-        let numbering = Numbering { base, per_node, listed };
-        Ok(ParsedSurfaceSettings { settings, numbering, limits })
+        Ok((settings, limits, Numbering { base, dofs }))
     }
 
     /// The true shape of a side.

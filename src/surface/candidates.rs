@@ -16,10 +16,6 @@ const OPPOSED: f64 = -0.2;
 /// of neighbours on it, normals differ by the angle of a face, say 30 degrees on coarse ones.
 pub(super) const SAME_WAY: f64 = 0.7;
 
-/// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
-/// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
-pub(super) const BEYOND: f64 = 1e-9;
-
 /// How far from a slave face a master face may be, along the slave's normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
@@ -85,7 +81,7 @@ impl<'a> Candidates<'a> {
 
     /// Master faces within reach of a point, opposed to a normal.
     pub(super) fn of_point(&mut self, point: Vector3, normal: Vector3) -> &[usize] {
-        self.near(&Sweep::of_point(&point, normal, self.ways(), BEYOND), normal)
+        self.near(&Sweep::of_point(&point, normal, self.ways()), normal)
     }
 
     /// How far back and forward faces are looked for.

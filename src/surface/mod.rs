@@ -66,6 +66,5 @@ pub use pair_surfaces::pair_surfaces;
 pub use pairs::{Fold, NodeDofs, PairArrays, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use penetration::{KeptSurfaces, Penetration};
 pub use settings::{Normals, Pairing, Rims, SurfaceSettings, TrueShape};
-pub use shape::FaceKind;
 pub use symmetry::SymmetryPlane;
 pub use zones::{ContactZone, join_zones, summary_of_zones};

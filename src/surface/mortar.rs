@@ -16,7 +16,7 @@ use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
-use super::pairs::{SurfacePairs, SurfaceReport};
+use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
@@ -81,11 +81,12 @@ pub(super) fn pairs<'a>(
     report.folded = rims::fold(settings.rims, &mut rows, (slave, planes), watch)?;
     let pair = |node, row: Row| {
         let (gap, normal) = (row.gap / row.area, mean_normal(node, &row)?);
-        let pair = pair_of_row(sides, planes, (node, row), normal)?;
-        Ok(match &shapes {
-            Some(shapes) => pair.with_gap(gap, shapes.size()),
-            None => pair,
-        })
+        let mut pair = pair_of_row(sides, planes, (node, row), normal)?;
+        if let Some(shapes) = &shapes {
+            let size = shapes.size() + Vector3::from(pair.point).lp_norm(1);
+            pair.gap = without_rounding(gap, size);
+        }
+        Ok(pair)
     };
     pairs_of_rows(slave, rows, report, pair, watch)
 }

@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
-use super::candidates::{BEYOND, Candidates};
+use super::candidates::Candidates;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::foot;
@@ -19,6 +19,7 @@ use super::plane::Plane;
 use super::row::Row;
 use super::settings::Normals;
 use super::shape::{FaceKind, Local};
+use super::sweep::BEYOND;
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
 use crate::error::Error;

@@ -1,7 +1,6 @@
 //! Contact pairs from surfaces: what the caller gets.
 
 use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::Vector3;
 
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
@@ -75,21 +74,21 @@ pub struct SurfaceReport {
 }
 
 /// Degrees of freedom of the host's nodes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NodeDofs<'a> {
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodeDofs {
     /// `per_node * node + axis`: 6 a node for shells, of which the first `dim` are displacements.
     PerNode(usize),
     /// `dim` for each node of the host, in the order of the axes.
-    Listed(&'a [usize]),
+    Listed(Vec<usize>),
 }
 
-impl<'a> NodeDofs<'a> {
+impl NodeDofs {
     /// Those of a node, `dim` of them.
-    pub fn of(self, node: usize, dim: usize) -> impl Iterator<Item = usize> + use<'a> {
+    pub fn of(&self, node: usize, dim: usize) -> impl Iterator<Item = usize> {
         (0..dim).map(move |axis| self.along(axis, node, dim))
     }
 
-    fn along(self, axis: usize, node: usize, dim: usize) -> usize {
+    fn along(&self, axis: usize, node: usize, dim: usize) -> usize {
         match self {
             NodeDofs::PerNode(per_node) => per_node * node + axis,
             NodeDofs::Listed(dofs) => dofs[dim * node + axis],
@@ -156,12 +155,6 @@ impl SurfacePair {
         self.nodes.truncate(self.slave_count);
         self
     }
-
-    /// The pair with a gap between shapes of this size beside its own place.
-    pub(super) fn with_gap(self, gap: f64, size: f64) -> SurfacePair {
-        let size = size + Vector3::from(self.point).lp_norm(1);
-        SurfacePair { gap: without_rounding(gap, size), ..self }
-    }
 }
 
 /// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
@@ -175,7 +168,7 @@ impl PairArrays {
     fn push(
         &mut self,
         pair: &SurfacePair,
-        (nodes, dofs): (impl Iterator<Item = Weight>, NodeDofs<'_>),
+        (nodes, dofs): (impl Iterator<Item = Weight>, &NodeDofs),
         (gap, area): (f64, f64),
     ) {
         let dim = self.dim;
@@ -198,14 +191,14 @@ impl PairArrays {
 impl SurfacePairs {
     /// The pairs as general rows: of any faces, with gaps and areas as they are.
     pub fn rows(&self) -> PairArrays {
-        self.rows_on(NodeDofs::PerNode(self.dim))
+        self.rows_on(&NodeDofs::PerNode(self.dim))
     }
 
     /// [`Self::rows`] with the host's own degrees of freedom.
     ///
     /// # Panics
     /// If a list of degrees of freedom ends before the last node of a pair.
-    pub fn rows_on(&self, dofs: NodeDofs<'_>) -> PairArrays {
+    pub fn rows_on(&self, dofs: &NodeDofs) -> PairArrays {
         let (dim, count) = (self.dim, self.pairs.len());
         let entries = self.pairs.iter().map(|pair| pair.nodes.len()).sum();
         let mut arrays = PairArrays {
@@ -242,7 +235,7 @@ impl SurfacePairs {
             }
             masters.extend(pair.masters().iter().map(|(node, weight)| (*node, weight / own)));
             arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
-            let dofs = NodeDofs::PerNode(dim);
+            let dofs = &NodeDofs::PerNode(dim);
             arrays.push(pair, (masters.into_iter(), dofs), (pair.gap / own, pair.area * own));
         }
         Some(arrays)

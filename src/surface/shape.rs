@@ -15,7 +15,7 @@ pub(super) type Local = [f64; 2];
 
 /// The kind of a face, told by the space dimension and the number of its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FaceKind {
+pub(super) enum FaceKind {
     /// A line with 2 nodes, in the plane.
     Line2,
     /// A line with 3 nodes, in the plane: ends, then the middle.
@@ -63,7 +63,7 @@ impl FaceKind {
     }
 
     /// Number of nodes.
-    pub fn nodes(self) -> usize {
+    pub(super) fn nodes(self) -> usize {
         match self {
             Line2 => 2,
             Line3 | T3 => 3,

@@ -1,8 +1,7 @@
 //! What a pairing has found, in words.
 
 use super::pairs::SurfacePairs;
-use crate::error::Message;
-use crate::error::index;
+use crate::error::{Message, index};
 
 impl SurfacePairs {
     /// One sentence on what was found, of indices that count from 0: for a log, and to see why there are no pairs.

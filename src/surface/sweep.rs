@@ -9,6 +9,10 @@ use crate::linalg::vector3::Vector3;
 /// themselves.
 const TOUCH: f64 = 4e-15;
 
+/// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
+/// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
+pub(super) const BEYOND: f64 = 1e-9;
+
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
@@ -108,15 +112,10 @@ impl<'a> Sweep<'a> {
         Sweep::new(Hull::of(face), (normal, longest.unwrap_or_default()), reach, -TOUCH)
     }
 
-    /// A point that is wanted even if it is beyond a face by as much as `beyond`.
-    pub(super) fn of_point(
-        point: &'a Vector3,
-        normal: Vector3,
-        reach: [f64; 2],
-        beyond: f64,
-    ) -> Sweep<'a> {
+    /// A point that is wanted even if it is beyond a face by as much as [`BEYOND`].
+    pub(super) fn of_point(point: &'a Vector3, normal: Vector3, reach: [f64; 2]) -> Sweep<'a> {
         let hull = Hull { points: std::slice::from_ref(point), margin: 0.0 };
-        Sweep::new(hull, (normal, tangents(3, normal)[0]), reach, beyond)
+        Sweep::new(hull, (normal, tangents(3, normal)[0]), reach, BEYOND)
     }
 
     fn new(

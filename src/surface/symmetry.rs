@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::face::Face;
 use super::mesh::{ON_PLANE, Side};
 use super::normals::{at_nodes, direction};
+use super::sweep::Bounds;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
@@ -42,7 +43,8 @@ impl OnPlanes {
         let refuse = |message: String| Err(Error::invalid(Argument::Settings, message));
         let mut found = OnPlanes::default();
         let nodes = slave.all_nodes();
-        let near = ON_PLANE * extent(slave, &nodes);
+        let Bounds { low, high } = Bounds::of(nodes.iter().map(|&node| slave.position(node)));
+        let near = ON_PLANE * (high - low).amax();
         if axisymmetric {
             for node in nodes.iter().filter(|&&node| slave.position(node).x <= near) {
                 found.axes.entry(*node).or_default()[0] = true;
@@ -147,13 +149,4 @@ impl Side<'_> {
         };
         sums.into_iter().map(normal).collect()
     }
-}
-
-/// The largest extent of a side along an axis.
-fn extent(side: &Side<'_>, nodes: &[usize]) -> f64 {
-    let along = |axis: usize| {
-        let places = || nodes.iter().map(|&node| side.position(node)[axis]);
-        places().fold(f64::MIN, f64::max) - places().fold(f64::MAX, f64::min)
-    };
-    (0..3).map(along).fold(0.0, f64::max)
 }

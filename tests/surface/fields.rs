@@ -117,9 +117,9 @@ fn a_uniform_traction_is_uniform_everywhere() {
 fn degrees_of_freedom_follow_the_host() {
     let (nodes, pairs) = found([Shape::Q8, Shape::T3], Pairing::DualMortar);
     let rows = pairs.rows();
-    let shells = pairs.rows_on(NodeDofs::PerNode(6));
+    let shells = pairs.rows_on(&NodeDofs::PerNode(6));
     let listed: Vec<usize> = (0..3 * nodes.len()).map(|dof| 6 * (dof / 3) + dof % 3).collect();
-    assert_eq!(shells, pairs.rows_on(NodeDofs::Listed(&listed)));
+    assert_eq!(shells, pairs.rows_on(&NodeDofs::Listed(listed)));
     for (dof, shell) in rows.masters.iter().zip(&shells.masters) {
         assert_eq!(6 * (dof / 3) + dof % 3, *shell);
     }
