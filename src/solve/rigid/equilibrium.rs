@@ -53,8 +53,8 @@ type Proves<'c> = dyn Fn(&[f64]) -> bool + 'c;
 
 /// The rigid motions of a problem, and the forces that balance them.
 pub struct Balance<'c, R = Stiffness<'c>> {
-    contact: &'c Contact<'c, R>,
-    pub motions: RigidMotions,
+    pub(super) contact: &'c Contact<'c, R>,
+    pub(super) motions: RigidMotions,
     /// The certificate.
     proves: Box<Proves<'c>>,
 }

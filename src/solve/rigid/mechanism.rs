@@ -47,17 +47,13 @@ pub fn describe<'c, R: Relation>(
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
     let Some(proof) = solution.recession.take() else { return Ok(()) };
-    let mut proof = match &balance {
-        Some(balance) => balance.sharpened(proof),
-        None => proof,
-    };
+    // If others are not found in time, the motion of the proof stands for all, as it is.
+    let alone = || Balance::of(contact, RigidMotions::along(contact.problem(), &proof), |_| false);
+    let balance = balance.unwrap_or_else(alone);
+    let mut proof = balance.sharpened(proof);
     normalise(&mut proof);
-    // If others are not found in time, the motion of the proof stands for all.
-    let alone = || RigidMotions::along(contact.problem(), &proof);
-    let motions = balance.map_or_else(alone, |balance| balance.motions);
-    let viscous = Viscous { contact, motions };
-    let found = solve.map(|solve| viscous.escape(solve, monitor)).transpose()?.flatten();
-    let escape = found.unwrap_or_else(|| viscous.along(&proof));
+    let found = solve.map(|solve| balance.viscous(solve, monitor)).transpose()?.flatten();
+    let escape = found.unwrap_or_else(|| balance.along(&proof));
     solution.recession = Some(proof);
     let moves = in_words(contact, &escape);
     solution.message = format!("{NO_EQUILIBRIUM}: {moves}; {CAUSES}").into();
@@ -69,7 +65,7 @@ pub fn describe<'c, R: Relation>(
 /// says so in the message. With Coulomb's law that does not prove that there is no equilibrium.
 pub fn describe_run_away(contact: &Contact<'_>, solution: &mut Solution, motion: Vec<f64>) {
     let motions = RigidMotions::along(contact.problem(), &motion);
-    let escape = Viscous { contact, motions }.with_motion(motion);
+    let escape = motions.escape(motion);
     let moves = in_words(contact, &escape);
     solution.say(&format!(
         "without supports the bodies move away along the motion of escape: {moves}; forces that balance the loads are \
@@ -78,32 +74,35 @@ pub fn describe_run_away(contact: &Contact<'_>, solution: &mut Solution, motion:
     solution.escape = Some(escape);
 }
 
-/// Rigid motions against a viscosity.
-struct Viscous<'c, R = Stiffness<'c>> {
-    contact: &'c Contact<'c, R>,
-    motions: RigidMotions,
-}
-
-impl<R: Relation> Viscous<'_, R> {
+impl RigidMotions {
     /// `P + c (1 - P)` in the units of the problem, column-major.
     fn stiffness(&self) -> Vec<f64> {
-        let n = self.motions.root.len();
+        let n = self.root.len();
         let mut matrix = vec![0.0; n * n];
         for (j, column) in matrix.chunks_exact_mut(n).enumerate() {
-            column[j] = STIFFER * self.motions.root[j] * self.motions.root[j];
-            for v in &self.motions.basis {
-                let own = v[j] * self.motions.root[j];
-                let entries = column.iter_mut().zip(v.iter().zip(&self.motions.root));
+            column[j] = STIFFER * self.root[j] * self.root[j];
+            for v in &self.basis {
+                let own = v[j] * self.root[j];
+                let entries = column.iter_mut().zip(v.iter().zip(&self.root));
                 entries.for_each(|(k, (v, root))| *k += (1.0 - STIFFER) * (own * (v * root)));
             }
         }
         matrix
     }
 
-    /// The motion of escape; `None` if a solution was not found.
-    fn escape(&self, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
+    /// The escape with a rigid motion: what moves the viscosity is not balanced.
+    fn escape(&self, mut motion: Vec<f64>) -> Escape {
+        let unbalanced = motion.iter().zip(&self.root).map(|(r, root)| r * root * root).collect();
+        normalise(&mut motion);
+        Escape { motion, unbalanced }
+    }
+}
+
+impl<R: Relation> Balance<'_, R> {
+    /// The motion of escape against the viscosity; `None` if a solution was not found.
+    fn viscous(&self, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
         let problem = self.contact.problem();
-        let (matrix, gap) = (self.stiffness(), self.contact.touching_gaps());
+        let (matrix, gap) = (self.motions.stiffness(), self.contact.touching_gaps());
         let settings = Settings::default();
         let mut load = problem.relation().load().to_vec();
         let matrix = Matrix::new(load.len(), &matrix, load.len().max(1));
@@ -125,21 +124,12 @@ impl<R: Relation> Viscous<'_, R> {
                 load[i] -= STIFFER * strain * self.motions.root[i];
                 most = strain.abs().max(most);
             }
-            let size = rigid.iter().zip(&self.motions.root).map(|(r, root)| (r * root).abs());
-            if most <= RIGID * size.fold(0.0, f64::max) {
-                return Ok(Some(self.with_motion(rigid)));
+            if most <= RIGID * self.motions.size(&rigid) {
+                return Ok(Some(self.motions.escape(rigid)));
             }
             d = Some(solution.d);
         }
         Ok(None)
-    }
-
-    /// The escape with a rigid motion: what moves the viscosity is not balanced.
-    fn with_motion(&self, mut motion: Vec<f64>) -> Escape {
-        let unbalanced =
-            motion.iter().zip(&self.motions.root).map(|(r, root)| r * root * root).collect();
-        normalise(&mut motion);
-        Escape { motion, unbalanced }
     }
 
     /// The escape along the motion of a proof, as fast as the loads drive it.
@@ -147,7 +137,7 @@ impl<R: Relation> Viscous<'_, R> {
         let work = dot(self.contact.load_with_tension(), proof);
         let scaled = self.motions.scaled(proof);
         let speed = work / dot(&scaled, &scaled);
-        self.with_motion(proof.iter().map(|r| speed * r).collect())
+        self.motions.escape(proof.iter().map(|r| speed * r).collect())
     }
 }
 
@@ -208,8 +198,8 @@ mod tests {
             for length in [1.0, 4.0] {
                 let proof = [-1.0, 2.0, -1.0, 2.0].map(|r| r * length);
                 let motions = RigidMotions::along(problem, &proof);
-                let Escape { motion, unbalanced } =
-                    Viscous { contact: &contact, motions }.along(&proof);
+                let balance = Balance::of(&contact, motions, |_| true);
+                let Escape { motion, unbalanced } = balance.along(&proof);
                 // f . p = 1 + 6 + 5 + 4 = 16 and sum k p² = 2 + 32 + 2 + 32 = 68, in units of length 1.
                 let exact = [2.0, 8.0, 2.0, 8.0].map(|k| 16.0 / 68.0 * k);
                 let sizes = [-1.0, 2.0, -1.0, 2.0];

@@ -24,19 +24,24 @@ impl RigidMotions {
 
     /// The motions that a block of a problem does not resist, and that move nothing beside it.
     pub fn of_block(problem: &ContactProblem<'_>, block: &FreeBlock<'_>) -> Self {
-        let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
-        for motion in block.null_vectors() {
-            let scaled = motions.scaled(&motion);
-            extend_basis(&mut motions.basis, scaled);
-        }
-        motions
+        Self::spanned(problem, block.null_vectors())
     }
 
     /// The multiples of one motion.
     pub fn along<R: Relation>(problem: &ContactProblem<'_, R>, motion: &[f64]) -> Self {
+        Self::spanned(problem, std::iter::once(motion))
+    }
+
+    /// The sums of multiples of some motions.
+    fn spanned<R: Relation>(
+        problem: &ContactProblem<'_, R>,
+        some: impl Iterator<Item = impl AsRef<[f64]>>,
+    ) -> Self {
         let mut motions = RigidMotions { root: problem.unit_roots(), basis: Vec::new() };
-        let scaled = motions.scaled(motion);
-        extend_basis(&mut motions.basis, scaled);
+        for motion in some {
+            let scaled = motions.scaled(motion.as_ref());
+            extend_basis(&mut motions.basis, scaled);
+        }
         motions
     }
 
