@@ -85,7 +85,7 @@ pub trait NormalMap {
 }
 
 /// Systems after which Newton's method is given up on operators and in flexibility form.
-pub const MOST_SYSTEMS: u64 = 40;
+const MOST_SYSTEMS: u64 = 40;
 
 /// The tolerance and the budget of Newton's method.
 #[derive(Clone, Copy)]
@@ -98,12 +98,21 @@ pub struct Goal {
     pub full_steps: u64,
 }
 
+impl Goal {
+    /// The goal on operators and in flexibility form.
+    pub fn of(tolerance: f64) -> Self {
+        Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 }
+    }
+}
+
 /// How Newton's method ended, and where.
 pub struct NewtonOutcome<P> {
     /// The last point where the method is done, otherwise that of the least lack.
     pub point: P,
     /// `Done` if `eta` is below the tolerance or at its rounding.
     pub ending: Ending,
+    /// Systems, without one that was stopped.
+    pub systems: u64,
 }
 
 /// Solves equations from a point.
@@ -155,7 +164,7 @@ pub fn solve<M: NormalMap>(
     if ending != Ending::Done {
         point = best.unwrap_or(point);
     }
-    NewtonOutcome { point, ending }
+    NewtonOutcome { point, ending, systems }
 }
 
 /// The first of ever shorter steps along which the lack falls enough, or the shortest; and its length.

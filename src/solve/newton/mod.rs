@@ -19,9 +19,7 @@ mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
 use descent::PATIENCE;
-pub use descent::{
-    AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend,
-};
+pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend};
 pub use ended::Ended;
 pub use iteration::{from_pieces, solve as newton_from};
 pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};

@@ -71,25 +71,19 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     check(settings)?;
     let mut bodies = Session::new(bodies);
-    let (loaded, ending) = Loaded::new(&mut bodies, case, past, monitor)?;
+    let loaded = Loaded::new(&mut bodies, case, past, monitor)?;
     let whole = loaded.problem(&bodies, case.gap)?;
-    let contact = Contact::new(&whole);
+    let (contact, how) = (&Contact::new(&whole), (settings, start));
     let mut solution = None;
-    if let Some(ending) = ending {
-        let found = (&loaded.at_zero, &loaded.residual[..], &ending);
-        solution = Some(result(&contact, &mut bodies, (settings, case), found, past));
-    } else if let Some(gaps) = gaps_within_reach(&contact, &[], FAR) {
+    if let Some(gaps) = gaps_within_reach(contact, &[], FAR) {
         let near = loaded.problem(&bodies, &gaps)?;
-        let near = Contact::new(&near);
-        let found =
-            loaded.solve((&contact, &near), &mut bodies, (settings, start), past, monitor)?;
+        let near = &Contact::new(&near);
+        let found = loaded.solve((contact, near), &mut bodies, how, past, monitor)?;
         solution = Some(found).filter(|found| found.status != Status::Stalled);
     }
     let solution = match solution {
         Some(solution) => solution,
-        None => {
-            loaded.solve((&contact, &contact), &mut bodies, (settings, start), past, monitor)?
-        }
+        None => loaded.solve((contact, contact), &mut bodies, how, past, monitor)?,
     };
     let Session { solutions, factorisations, .. } = bodies;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
@@ -106,7 +100,7 @@ pub fn certify(
 ) -> Result<Certificate, Error> {
     let mut bodies = Session::new(bodies);
     let endless = &mut Monitor::new(&Settings::default(), None);
-    let (loaded, _) = Loaded::new(&mut bodies, case, &mut CasePast::default(), endless)?;
+    let loaded = Loaded::new(&mut bodies, case, &mut CasePast::default(), endless)?;
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
@@ -127,38 +121,30 @@ struct Loaded<'a> {
     residual: Vec<f64>,
     /// The relative loads: minus the forces on the pairs there.
     relative: Vec<f64>,
+    /// How the call ends if there was no time for a factor: nothing is in equilibrium then.
+    stopped: Option<Ending>,
 }
 
 impl<'a> Loaded<'a> {
-    /// The load case, and how the call ends if it has no factor in time: nothing is in equilibrium then.
     fn new(
         bodies: &mut Session<'_>,
         case: &'a Case<'a>,
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
-    ) -> Result<(Self, Option<Ending>), Error> {
+    ) -> Result<Self, Error> {
         let inner = bodies.operator.inner();
-        let (mut at_zero, mut ending) = (past.at_zero(case.load), None);
-        if at_zero.is_none() {
-            let rest = Displacements::new(vec![0.0; case.load.len()], inner);
-            let held = bodies.hold_all(case.dim, monitor);
-            match ended(
-                held.and_then(|()| {
-                    rest.in_equilibrium(bodies, (case.load, LEFT_AT_START), monitor)
-                }),
-            )? {
-                Ok(found) => {
-                    past.learn(case.load, &found);
-                    at_zero = Some(found);
-                }
-                Err(stopped) => ending = Some(stopped),
-            }
-        }
-        let nothing = || Displacements::new(vec![0.0; case.load.len()], inner);
-        let at_zero = at_zero.unwrap_or_else(nothing);
+        let nothing = Displacements::zero(case.load.len(), inner);
+        let found = past.at_zero(case.load, || {
+            bodies.hold_all(case.dim, monitor)?;
+            nothing.clone().in_equilibrium(bodies, (case.load, LEFT_AT_START), monitor)
+        });
+        let (at_zero, stopped) = match ended(found)? {
+            Ok(at_zero) => (at_zero, None),
+            Err(stopped) => (nothing, Some(stopped)),
+        };
         let residual = bodies.operator.residual(&at_zero.x, &at_zero.low, case.load)?;
         let relative = residual[inner..].iter().map(|f| -f).collect();
-        Ok((Loaded { case, at_zero, residual, relative }, ending))
+        Ok(Loaded { case, at_zero, residual, relative, stopped })
     }
 
     /// The contact problem with these gaps.
@@ -177,9 +163,15 @@ impl<'a> Loaded<'a> {
         &self,
         near: &Contact<'_, MatrixFree<'_>>,
         bodies: &mut Session<'_>,
-        start: Option<&[f64]>,
+        (start, past): (Option<&[f64]>, &CasePast),
         monitor: &mut Monitor<'_>,
     ) -> Result<Displacements, Ending> {
+        if let Some(stopped) = &self.stopped {
+            return Err(stopped.clone());
+        }
+        if let Some(last) = start.and_then(|start| past.last(start)) {
+            return Ok(last.clone());
+        }
         bodies.hold_all(self.case.dim, monitor)?;
         let mut at = self.at_zero.clone();
         let of_pairs = &mut at.x[bodies.operator.inner()..];
@@ -200,31 +192,23 @@ impl<'a> Loaded<'a> {
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        let (inner, case) = (bodies.operator.inner(), self.case);
+        let (inner, with) = (bodies.operator.inner(), (settings, self.case));
+        let at_zero = (&self.at_zero, &self.residual[..]);
         if contact.is_unloaded() {
-            let rest = (&self.at_zero, &self.residual[..], &Ending::Done);
-            let rest = result(contact, bodies, (settings, case), rest, past);
+            let rest = result(contact, bodies, with, (at_zero, &Ending::Done), past);
             if rest.status == Status::Solved {
                 return Ok(rest);
             }
         }
-        let at = match start.and_then(|start| past.last(start)) {
-            Some(last) => Ok(last.clone()),
-            None => ended(self.start(near, bodies, start, monitor))?,
-        };
-        let at = match at {
+        let at = match ended(self.start(near, bodies, (start, past), monitor))? {
             Ok(at) => at,
-            Err(ending) => {
-                let rest = (&self.at_zero, &self.residual[..], &ending);
-                return Ok(result(contact, bodies, (settings, case), rest, past));
-            }
+            Err(ending) => return Ok(result(contact, bodies, with, (at_zero, &ending), past)),
         };
-        let equations =
-            Equations::new(near, bodies.operator, case.load, &self.relative, settings.tolerance);
-        let outcome = by_attempts(&equations, bodies, &at, monitor)?;
-        let found = (&outcome.point.at, &outcome.point.residual[..], &outcome.ending);
-        let mut solution = result(contact, bodies, (settings, case), found, past);
-        if let Ending::Recession(motion) = outcome.ending
+        let equations = Equations::new(near, bodies.operator, self.case.load, settings.tolerance);
+        let Outcome { point, ending, .. } = by_attempts(&equations, bodies, &at, monitor)?;
+        let found = ((&point.at, &point.residual[..]), &ending);
+        let mut solution = result(contact, bodies, with, found, past);
+        if let Ending::Recession(motion) = ending
             && solution.status == Status::Stalled
             && is_spread_escape(contact, bodies.operator, &motion)?
         {
@@ -306,7 +290,7 @@ fn result(
     contact: &Contact<'_, MatrixFree<'_>>,
     bodies: &mut Session<'_>,
     (settings, case): (&Settings, &Case<'_>),
-    (at, residual, ending): (&Displacements, &[f64], &Ending),
+    ((at, residual), ending): ((&Displacements, &[f64]), &Ending),
     past: &mut CasePast,
 ) -> Solution {
     let certificate = measure_spread(contact, bodies.operator, &at.x, residual);

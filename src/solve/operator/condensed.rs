@@ -12,10 +12,10 @@
 
 use super::memory::{memory_of_components, room};
 use super::newton::{self, Outcome, improve};
-use super::point::{Displacements, Equations};
+use super::point::{Displacements, Equations, Point};
 use super::session::Session;
 use crate::certificate::is_spread_escape;
-use crate::law::Contact;
+use crate::law::{Contact, PairLaw};
 use crate::monitor::Monitor;
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
@@ -51,31 +51,32 @@ pub fn solve(
     while fits(equations.contact.dim() * chosen.len(), equations.load.len()) {
         let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
         let found = condensed.solved(equations, &chosen, &at, monitor)?;
-        let joins: Vec<bool> = match found {
+        let (joins, solved): (Vec<bool>, Option<Point>) = match found {
             Some(Solution { status: Status::Solved, d, .. }) => {
                 let point = condensed.with(bodies, at, (&d, equations.load), monitor)?;
                 let point = equations.held_at(point, bodies)?;
-                let closed: Vec<bool> = point.pieces.iter().map(|piece| piece.closed).collect();
                 at = point.at.clone();
-                if (0..laws.len()).all(|k| !closed[k] || chosen.binary_search(&k).is_ok()) {
-                    improve(best, newton::solve(equations, bodies, point, monitor)?);
-                    break;
-                }
-                closed
+                (point.pieces.iter().map(|piece| piece.closed).collect(), Some(point))
             }
             Some(Solution { status: Status::NoEquilibrium, recession: Some(motion), .. }) => {
-                let motion = condensed.motion(equations, bodies, &motion, monitor)?;
+                let rest = Displacements::zero(equations.load.len(), equations.inner);
+                let unloaded = vec![0.0; equations.load.len()];
+                let motion = condensed.with(bodies, rest, (&motion, &unloaded), monitor)?.x;
                 if is_spread_escape(equations.contact, bodies.operator, &motion)? {
                     return Err(Ending::Recession(motion));
                 }
                 let parts = motion[equations.inner..].chunks_exact(equations.contact.dim());
-                laws.iter().zip(parts).map(|(law, r)| law.recession(r).approach > 0.0).collect()
+                let approaches = |(law, r): (&PairLaw, &[f64])| law.recession(r).approach > 0.0;
+                (laws.iter().zip(parts).map(approaches).collect(), None)
             }
             _ => break,
         };
         let before = chosen.len();
         chosen = (0..laws.len()).filter(|k| joins[*k] || chosen.binary_search(k).is_ok()).collect();
         if chosen.len() == before {
+            if let Some(point) = solved {
+                improve(best, newton::solve(equations, bodies, point, monitor)?);
+            }
             break;
         }
     }
@@ -86,8 +87,6 @@ pub fn solve(
 struct Condensed {
     /// Places of the components among all unknowns.
     places: Vec<usize>,
-    /// Number of all unknowns.
-    unknowns: usize,
     /// Column-major.
     matrix: Vec<f64>,
     load: Vec<f64>,
@@ -108,13 +107,10 @@ impl Condensed {
         own.iter().for_each(|&i| held_set.held[i] = true);
         bodies.hold_under(&held_set, monitor)?;
         let places: Vec<usize> = own.iter().map(|i| inner + i).collect();
-        let (size, unknowns) = (places.len(), equations.load.len());
-        let (matrix, load) = (vec![0.0; size * size], Vec::new());
-        let mut condensed = Condensed { places, unknowns, matrix, load };
-        let at = {
-            let nothing = vec![0.0; size];
-            condensed.with(bodies, near.clone(), (&nothing, equations.load), monitor)?
-        };
+        let size = places.len();
+        let mut condensed = Condensed { places, matrix: vec![0.0; size * size], load: Vec::new() };
+        let (near, nothing) = (near.clone(), vec![0.0; size]);
+        let at = condensed.with(bodies, near, (&nothing, equations.load), monitor)?;
         let forces = bodies.operator.residual(&at.x, &at.low, equations.load)?;
         condensed.load = condensed.places.iter().map(|&i| -forces[i]).collect();
         for j in 0..size {
@@ -125,11 +121,6 @@ impl Condensed {
         Ok(condensed)
     }
 
-    /// True if there are other unknowns.
-    fn has_others(&self) -> bool {
-        self.places.len() < self.unknowns
-    }
-
     /// The forces on the components where component `j` is moved by one.
     fn column(
         &self,
@@ -138,12 +129,11 @@ impl Condensed {
         monitor: &mut Monitor<'_>,
     ) -> Result<Vec<f64>, Ending> {
         monitor.goes_on()?;
-        let mut x = vec![0.0; self.unknowns];
+        let mut x = vec![0.0; bodies.operator.units().len()];
         x[self.places[j]] = 1.0;
         let mut forces = bodies.operator.product(&x)?;
-        if self.has_others() {
-            let mut others = bodies.solve(&forces, monitor)?;
-            self.places.iter().for_each(|&i| others[i] = 0.0);
+        if bodies.has_free_unknowns() {
+            let others = bodies.solve(&forces, monitor)?;
             let taken = bodies.operator.product(&others)?;
             forces.iter_mut().zip(taken).for_each(|(force, taken)| *force -= taken);
         }
@@ -160,28 +150,10 @@ impl Condensed {
         monitor: &mut Monitor<'_>,
     ) -> Result<Displacements, Ending> {
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
-        if self.has_others() {
-            for _ in 0..=SOLUTIONS {
-                let lack = bodies.operator.residual(&at.x, &at.low, load)?;
-                let mut step = bodies.solve(&lack, monitor)?;
-                self.places.iter().for_each(|&i| step[i] = 0.0);
-                at = at.moved(-1.0, &step);
-            }
+        for _ in 0..=SOLUTIONS {
+            at = at.in_equilibrium(bodies, (load, 0.0), monitor)?;
         }
         Ok(at)
-    }
-
-    /// A motion of the components, continued to all unknowns.
-    fn motion(
-        &self,
-        equations: &Equations<'_>,
-        bodies: &mut Session<'_>,
-        d: &[f64],
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<f64>, Ending> {
-        let nothing = vec![0.0; self.unknowns];
-        let rest = Displacements::new(nothing.clone(), equations.inner);
-        Ok(self.with(bodies, rest, (d, &nothing), monitor)?.x)
     }
 
     /// The result of the dense problem, in displacements of its components, from displacements of all unknowns. `None`: its

@@ -7,7 +7,7 @@ use super::system::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
 use crate::monitor::Monitor;
-use crate::solve::newton::{AIM, Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, descend};
+use crate::solve::newton::{AIM, Goal, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::Ending;
 
 /// Systems with full steps: where they converge they take fewer than steps with a line search.
@@ -32,38 +32,29 @@ pub type Outcome = NewtonOutcome<Point>;
 pub fn solve(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
-    point: Point,
+    mut point: Point,
     monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
-    let tolerance = equations.tolerance;
-    let goal =
-        Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: FULL_STEPS };
-    let is_followed = bodies.follows_residuals();
+    let goal = Goal { full_steps: FULL_STEPS, ..Goal::of(equations.tolerance) };
     let mut newton = Newton { equations, bodies, known: Vec::new() };
-    let mut outcome = unfailed(descend(&mut newton, point, goal, monitor))?;
-    if !is_followed {
-        return Ok(outcome);
-    }
     let mut before = f64::INFINITY;
     loop {
+        let mut outcome = descend(&mut newton, point, goal, monitor);
+        if let Ending::Failed(error) = outcome.ending {
+            return Err(error);
+        }
+        if !newton.bodies.follows_residuals() {
+            return Ok(outcome);
+        }
         let Point { at, y, .. } = outcome.point;
         outcome.point = equations.point(newton.bodies, at, y, None)?;
         let eta = outcome.point.eta;
-        let is_left = outcome.ending == Ending::Done && eta > tolerance;
+        let is_left = outcome.ending == Ending::Done && eta > equations.tolerance;
         if !(is_left && eta < before) {
             return Ok(outcome);
         }
-        before = eta;
+        (before, point) = (eta, outcome.point);
         newton.known.clear();
-        outcome = unfailed(descend(&mut newton, outcome.point, goal, monitor))?;
-    }
-}
-
-/// The outcome, unless the host has failed.
-fn unfailed(outcome: Outcome) -> Result<Outcome, Error> {
-    match outcome.ending {
-        Ending::Failed(error) => Err(error),
-        _ => Ok(outcome),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::law::{Contact, Piece, Vector, natural_sum, scale_roots};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
-use crate::problem::{MatrixFree, StiffnessOperator};
+use crate::problem::{MatrixFree, Relation, StiffnessOperator};
 use crate::solve::result::Ending;
 
 /// The equations `A x - b + (0, P) = 0` with `(d, P)` on the law of each pair.
@@ -29,13 +29,13 @@ impl<'a> Equations<'a> {
         contact: &'a Contact<'a, MatrixFree<'a>>,
         bodies: &dyn StiffnessOperator,
         load: &'a [f64],
-        relative: &[f64],
         tolerance: f64,
     ) -> Self {
+        let unit = norm(contact.problem().relation().load());
         let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
         root.truncate(bodies.inner());
         root.extend(scale_roots(contact.pairs(), contact.dim()));
-        Equations { contact, load, inner: bodies.inner(), root, unit: norm(relative), tolerance }
+        Equations { contact, load, inner: bodies.inner(), root, unit, tolerance }
     }
 
     /// Length of a vector of forces on all unknowns, each in its unit.
@@ -109,26 +109,23 @@ pub struct Displacements {
 }
 
 impl Displacements {
-    /// Displacements of which the first `inner` belong to inner unknowns.
-    pub fn new(x: Vec<f64>, inner: usize) -> Self {
-        Displacements { x, low: vec![0.0; inner] }
+    /// No displacements of so many unknowns, of which the first `inner` are inner ones.
+    pub fn zero(unknowns: usize, inner: usize) -> Self {
+        Displacements { x: vec![0.0; unknowns], low: vec![0.0; inner] }
     }
 
-    /// With their inner unknowns in equilibrium; all components of the pairs are held. Without a factor this part of the
-    /// lack is left.
+    /// With what is not held in equilibrium with a load. Without a factor this part of the lack is left.
     pub fn in_equilibrium(
         self,
         bodies: &mut Session<'_>,
         (load, left): (&[f64], f64),
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Ending> {
-        let inner = self.low.len();
-        if inner == 0 {
+        if !bodies.has_free_unknowns() {
             return Ok(self);
         }
         let lack = bodies.operator.residual(&self.x, &self.low, load)?;
-        let mut step = bodies.solve_to((&lack, left), monitor)?;
-        step[inner..].fill(0.0);
+        let step = bodies.solve_to((&lack, left), monitor)?;
         Ok(self.moved(-1.0, &step))
     }
 

@@ -50,6 +50,12 @@ impl<'b> Session<'b> {
         Ok(())
     }
 
+    /// True if there is a factor, and unknowns that it does not hold.
+    pub fn has_free_unknowns(&self) -> bool {
+        let has_inner = self.operator.inner() > 0;
+        self.held.as_ref().is_some_and(|held_set| has_inner || held_set.held.contains(&false))
+    }
+
     /// A solution with the held components at zero, or with the inverse, or what the preconditioner makes of the forces.
     pub fn solve(&mut self, forces: &[f64], monitor: &mut Monitor<'_>) -> Result<Vec<f64>, Ending> {
         monitor.goes_on()?;

@@ -39,19 +39,13 @@ use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
 
-/// A pair on its piece.
-struct Pair {
-    on_piece: Linearised,
-    /// Change of its friction with its displacements.
-    curvature: Plane,
-}
-
 /// Newton's system at a point.
 pub struct System<'a> {
     equations: &'a Equations<'a>,
     /// The lack that a step takes away.
     lack: &'a [f64],
-    pairs: Vec<Pair>,
+    /// The pairs on their pieces.
+    pairs: Vec<Linearised>,
     /// The first unknown that GMRES works on: the first one of the pairs, or, without equilibrium inside, of all.
     first: usize,
     /// The components that are held on the pieces of the point.
@@ -80,13 +74,12 @@ impl<'a> System<'a> {
         let laws = equations.contact.pairs().iter();
         let mut pairs = Vec::with_capacity(point.y.len());
         for (at, (law, (y, &piece))) in laws.zip(point.y.iter().zip(&point.pieces)).enumerate() {
-            let on_piece = law.linearised(piece, y);
-            let curvature = on_piece.curvature();
-            (0..dim).for_each(|c| held_set.held[dim * at + c] = !on_piece.moves(c));
-            if on_piece.slips && bodies.is_sparse() {
-                held_set.springs[at] = symmetric(&curvature);
+            let pair = law.linearised(piece, y);
+            (0..dim).for_each(|c| held_set.held[dim * at + c] = !pair.moves(c));
+            if pair.slips && bodies.is_sparse() {
+                held_set.springs[at] = symmetric(&pair.curvature());
             }
-            pairs.push(Pair { on_piece, curvature });
+            pairs.push(pair);
         }
         System { equations, lack: &point.lack, pairs, first, held_set }
     }
@@ -151,13 +144,12 @@ impl<'a> System<'a> {
         let right = &mut all[inside.len()..];
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
-            if !pair.on_piece.closed {
+            if !pair.closed {
                 right[n] = -lack[n];
             }
-            if pair.on_piece.slips {
-                (1..dim).for_each(|c| {
-                    right[n + c] = pair.on_piece.slopes.drag[c - 1] * lack[n] - lack[n + c]
-                });
+            if pair.slips {
+                (1..dim)
+                    .for_each(|c| right[n + c] = pair.slopes.drag[c - 1] * lack[n] - lack[n + c]);
             }
         }
         all
@@ -171,9 +163,9 @@ impl<'a> System<'a> {
         let (forces, rows) = (&forces[inner - self.first..], &mut all[inner - self.first..]);
         for (at, pair) in self.pairs.iter().enumerate() {
             let n = dim * at;
-            let turned = ellipse::product(&pair.curvature, tangential(&z[n..n + dim]));
+            let turned = ellipse::product(&pair.curvature(), tangential(&z[n..n + dim]));
             for c in 1..dim {
-                rows[n + c] += turned[c - 1] - pair.on_piece.slopes.drag[c - 1] * forces[n];
+                rows[n + c] += turned[c - 1] - pair.slopes.drag[c - 1] * forces[n];
             }
         }
         for (i, row) in rows.iter_mut().enumerate() {
@@ -212,13 +204,14 @@ impl<'a> System<'a> {
     /// Multiplies `s` to the tangential components of slipping pairs.
     fn soften(&self, values: &mut [f64]) {
         let dim = self.equations.contact.dim();
-        for (at, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.on_piece.slips) {
+        for (at, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.slips) {
             let n = dim * at;
-            let stiffness = pair.curvature[0][0] + pair.curvature[1][1];
+            let curvature = pair.curvature();
+            let stiffness = curvature[0][0] + curvature[1][1];
             if stiffness > 0.0 {
                 let unit = self.equations.root[self.equations.inner + n + 1].powi(2);
                 let taken = (1.0 - (1.0 + stiffness / unit).sqrt().recip()) / stiffness;
-                let across = ellipse::product(&pair.curvature, tangential(&values[n..n + dim]));
+                let across = ellipse::product(&curvature, tangential(&values[n..n + dim]));
                 (1..dim).for_each(|c| values[n + c] -= taken * across[c - 1]);
             }
         }
@@ -254,7 +247,7 @@ impl<'a> System<'a> {
             for i in (n..n + dim).filter(|&i| factor.held[i]) {
                 released[i] = w[i] / units[i];
             }
-            if pair.on_piece.slips && dim > 2 && factor.held[n + 1] {
+            if pair.slips && dim > 2 && factor.held[n + 1] {
                 let [[a, b], [_, c]] = *springs;
                 let (a, c) = (a + units[n + 1], c + units[n + 2]);
                 let determinant = a * c - b * b;
@@ -286,16 +279,16 @@ impl<'a> System<'a> {
     /// The change of the coordinates.
     fn coordinates(&self, z: &[f64], product: &[f64]) -> Vec<Vector> {
         let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
-        let coordinates = |(at, pair): (usize, &Pair)| {
+        let coordinates = |(at, pair): (usize, &Linearised)| {
             let n = dim * at;
             let reaction = |c: usize| -(lack[n + c] + product[n + c]);
-            let scaled = pair.on_piece.scaled(&z[n..n + dim]);
-            let turned = ellipse::product(&pair.curvature, tangential(&z[n..n + dim]));
+            let scaled = pair.scaled(&z[n..n + dim]);
+            let turned = ellipse::product(&pair.curvature(), tangential(&z[n..n + dim]));
             let mut dy = [0.0; 3];
-            dy[0] = if pair.on_piece.closed { reaction(0) } else { scaled[0] };
+            dy[0] = if pair.closed { reaction(0) } else { scaled[0] };
             for c in 1..dim {
-                dy[c] = match pair.on_piece.slips {
-                    true => scaled[c] + turned[c - 1] + pair.on_piece.slopes.drag[c - 1] * dy[0],
+                dy[c] = match pair.slips {
+                    true => scaled[c] + turned[c - 1] + pair.slopes.drag[c - 1] * dy[0],
                     false => reaction(c),
                 };
             }

@@ -80,9 +80,9 @@ const NEGATIVE: f64 = 1e-9;
 /// it.
 pub const DEFINITE: f64 = 1e-6;
 
-/// True if `W` is definite. `Err`: there is no time to see it.
-pub fn is_definite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Result<bool, Stop> {
-    Ok(factor(relation, (0.0, DEFINITE), monitor)?.is_some())
+/// True if `W` is definite; if there is no time to see it, it is not.
+pub fn is_definite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
+    matches!(factor(relation, (0.0, DEFINITE), monitor), Ok(Some(_)))
 }
 
 /// True if `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.

@@ -39,15 +39,13 @@ pub fn solve(
             return Ok(ended(&Contact::new(problem), (d, &force), settings, how));
         }
     };
-    let mut by_rounds = |problem: &ContactProblem<'_, DependentRows<'_>>,
-                         settings: &Settings,
-                         start: Option<&[f64]>| {
+    let (all, with_start) = (&|pair| pair, (settings, start));
+    let (found, _) = solve_by_rounds(problem, all, with_start, |problem, settings, start| {
         let variables = begun(relation, start);
         let mut bodies = Bodies { relation, condensed, variables, right: Vec::new() };
         let force = vec![0.0; relation.size()];
         rounds(problem, &mut bodies, force, (settings, solve), monitor)
-    };
-    let (found, _) = solve_by_rounds(problem, &|pair| pair, (settings, start), &mut by_rounds)?;
+    })?;
     Ok(found.solution)
 }
 

@@ -37,12 +37,14 @@ pub fn drawn(
     let size = equations.size();
     let mut random = Perturbation::new(0);
     let (mut best, mut least) = (equations.coordinates(force), f64::INFINITY);
-    let mut begin: Vec<Vector> = best.clone();
+    let (mut begin, mut systems): (Vec<Vector>, u64) = (best.clone(), 0);
     for _ in 0..MOST_POINTS {
         if monitor.is_late() {
             return None;
         }
-        let found = equations.solve(begin, settings.tolerance, monitor);
+        let mut found = equations.solve(begin, settings.tolerance, monitor);
+        systems += found.systems;
+        found.systems = systems;
         if found.ending == Ending::Done {
             let solution = found.solution(contact, settings);
             if solution.status == Status::Solved {

@@ -18,16 +18,16 @@
 
 use super::compliant::{Springs, is_definite, is_indefinite};
 use super::drawn::drawn;
-use super::growth::Growth;
-use super::on_flexibility::{NewtonForces, OnFlexibility};
+use super::on_flexibility::{LawPoint, OnFlexibility};
 use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
 use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::{Contact, pressing};
-use crate::linalg::vector::norm_inf;
+use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
 use crate::settings::{Method, Settings};
+use crate::solve::newton::NewtonOutcome;
 use crate::solve::result::{Ending, Solution, Solve, Status};
 
 /// The sentence on a `W` that the first springs make definite.
@@ -51,8 +51,9 @@ pub fn solve(
             return Ok(solution);
         }
     }
-    let mut by_rounds =
-        |problem: &FlexibilityProblem<'_>, settings: &Settings, start: Option<&[f64]>| {
+    let with_start = (settings, start);
+    let (found, proof) =
+        solve_by_rounds(problem, number, with_start, |problem, settings, start| {
             let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
             let found = from_forces(problem, (settings, solve), (&force, false), monitor)?;
             if found.solution.status != Status::Stalled || settings.method != Method::Auto {
@@ -61,17 +62,15 @@ pub fn solve(
             // Newton's method in softer springs leads elsewhere: each round has a solution whatever the friction.
             let again = from_forces(problem, (settings, solve), (&force, true), monitor)?;
             Ok(if again.solution.status == Status::Stalled { found } else { again })
-        };
-    let (found, proof) = solve_by_rounds(problem, number, (settings, start), &mut by_rounds)?;
-    let (mut solution, growth) = (found.solution, found.growth);
+        })?;
+    let RoundsFound { mut solution, pattern } = found;
     if let Some(mut forces) = proof {
         forces = pressing(problem.dim(), &forces);
-        let largest = norm_inf(&forces);
-        forces.iter_mut().for_each(|force| *force /= largest);
+        normalise(&mut forces);
         solution.status = Status::NoEquilibrium;
         solution.recession = Some(forces);
     } else if solution.status == Status::Stalled
-        && growth.pattern().is_none()
+        && pattern.is_none()
         && is_indefinite(problem.relation(), monitor)
     {
         let eta = solution.certificate.eta;
@@ -94,8 +93,8 @@ pub fn on_itself(
     settings: &Settings,
     force: &[f64],
     monitor: &mut Monitor<'_>,
-) -> Option<NewtonForces> {
-    if !takes_newton(settings) || is_definite(contact.problem().relation(), monitor) != Ok(true) {
+) -> Option<NewtonOutcome<LawPoint>> {
+    if !takes_newton(settings) || !is_definite(contact.problem().relation(), monitor) {
         return None;
     }
     let mut equations = OnFlexibility::new(contact, true);
@@ -130,7 +129,7 @@ fn from_forces(
         Err(stop) => {
             let (d, how) = (relation.relative(force), (settings.method, &Ending::Stopped(stop), 0));
             let solution = ended(&Contact::new(problem), (d, force), settings, how);
-            Ok(RoundsFound { solution, growth: Growth::default() })
+            Ok(RoundsFound { solution, pattern: None })
         }
     }
 }

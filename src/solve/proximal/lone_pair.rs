@@ -6,7 +6,7 @@ use super::on_flexibility::{ACCURATE, column};
 use crate::law::{PairLaw, Vector, natural_sum};
 use crate::linalg::vector3::{Matrix3, Vector3, vector};
 use crate::monitor::Monitor;
-use crate::solve::newton::{Goal, MOST_SYSTEMS, NormalMap, descend};
+use crate::solve::newton::{Goal, NormalMap, descend};
 use crate::solve::result::Ending;
 
 /// The equations of a pair. In the plane the third component stands for itself.
@@ -18,7 +18,6 @@ pub struct LonePair<'c> {
     /// `q`, and roots of the units of force per length.
     free: Vector3,
     root: Vector3,
-    systems: u64,
 }
 
 /// A point of the law.
@@ -45,7 +44,7 @@ impl<'c> LonePair<'c> {
         let pivots = scaled.cholesky()?.l_dirty().diagonal();
         let is_definite = pivots.min() * pivots.min() >= DEFINITE * pivots.max() * pivots.max();
         let free = vector(free);
-        is_definite.then_some(LonePair { law, dim, block: whole, free, root, systems: 0 })
+        is_definite.then_some(LonePair { law, dim, block: whole, free, root })
     }
 
     /// The contact force after Newton's method from the force `begin`, and its systems; `None` if it does not reach the
@@ -56,18 +55,12 @@ impl<'c> LonePair<'c> {
         tolerance: f64,
         monitor: &mut Monitor<'_>,
     ) -> Option<(Vector, u64)> {
-        let goal = Goal {
-            tolerance: ACCURATE * tolerance,
-            least_systems: 0,
-            most_systems: MOST_SYSTEMS,
-            full_steps: 0,
-        };
         let force = vector(begin);
         let caused = self.block * force + self.free;
         let begin = self.point(self.law.chart(caused.as_slice(), force.as_slice()));
-        let found = descend(&mut self, begin, goal, monitor);
+        let found = descend(&mut self, begin, Goal::of(ACCURATE * tolerance), monitor);
         let is_solved = found.ending == Ending::Done && found.point.eta <= tolerance;
-        is_solved.then_some((found.point.force.into(), self.systems))
+        is_solved.then_some((found.point.force.into(), found.systems))
     }
 
     fn point(&self, y: Vector) -> LonePoint {
@@ -99,7 +92,6 @@ impl NormalMap for LonePair<'_> {
     }
 
     fn step(&mut self, point: &LonePoint, _: &mut Monitor<'_>) -> Result<Vector3, Ending> {
-        self.systems += 1;
         let linear = self.law.linearised(self.law.piece(&point.y), &point.y);
         let mut matrix = Matrix3::identity();
         for c in 0..self.dim {

@@ -19,7 +19,7 @@ use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, Relation};
 use crate::settings::{Method, Settings};
-use crate::solve::newton::{Goal, MOST_SYSTEMS, NewtonOutcome, NormalMap, descend};
+use crate::solve::newton::{Goal, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::{Ending, Solution};
 
 /// Least and largest damping, beside flexibilities of size one. With `1e-3` fewer first starts arrive, with `0.1` more of
@@ -30,15 +30,7 @@ const DAMPING: [f64; 2] = [1e-13, 1e-2];
 /// system of Newton's method gives most of the digits.
 pub const ACCURATE: f64 = 1e-3;
 
-/// Forces and how they were found.
-pub struct NewtonForces {
-    pub point: LawPoint,
-    pub ending: Ending,
-    /// Systems that were factorised for these equations so far.
-    pub systems: u64,
-}
-
-impl NewtonForces {
+impl NewtonOutcome<LawPoint> {
     /// The result, with a certificate.
     pub fn solution(
         &self,
@@ -57,7 +49,6 @@ pub struct OnFlexibility<'c, 'p> {
     is_definite: bool,
     /// Roots of the scales of the components: `y / root` and `root d` are of one unit.
     root: Vec<f64>,
-    systems: u64,
 }
 
 /// A point of the law.
@@ -78,7 +69,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// The equations, undamped if `W` is definite.
     pub fn new(contact: &'c Contact<'p, Flexibility<'p>>, is_definite: bool) -> Self {
         let root = scale_roots(contact.pairs(), contact.dim()).collect();
-        OnFlexibility { contact, is_definite, root, systems: 0 }
+        OnFlexibility { contact, is_definite, root }
     }
 
     fn relation(&self) -> &'p Flexibility<'p> {
@@ -105,12 +96,9 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
         y: Vec<Vector>,
         tolerance: f64,
         monitor: &mut Monitor<'_>,
-    ) -> NewtonForces {
-        let tolerance = ACCURATE * tolerance;
-        let goal = Goal { tolerance, least_systems: 0, most_systems: MOST_SYSTEMS, full_steps: 0 };
+    ) -> NewtonOutcome<LawPoint> {
         let begin = self.point(y);
-        let NewtonOutcome { point, ending } = descend(self, begin, goal, monitor);
-        NewtonForces { point, ending, systems: self.systems }
+        descend(self, begin, Goal::of(ACCURATE * tolerance), monitor)
     }
 
     /// `W F + q`.
@@ -122,7 +110,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
 
     fn point(&self, y: Vec<Vector>) -> LawPoint {
         let dim = self.contact.dim();
-        let (mut lack, mut force) = (Vec::new(), Vec::new());
+        let [mut lack, mut force] = [(); 2].map(|()| Vec::with_capacity(self.root.len()));
         for (law, y) in self.contact.pairs().iter().zip(&y) {
             let (d, push) = law.point(y);
             lack.extend_from_slice(&d[..dim]);
@@ -233,13 +221,8 @@ impl NormalMap for OnFlexibility<'_, '_> {
                 .for_each(|(entry, &i)| *entry *= self.root[i] * scale);
         };
         let factor = Factor::new(n, false, SINGULAR, fill, &mut monitor.asking());
-        if factor.is_none()
-            && let Some(stop) = monitor.stop()
-        {
-            return Err(stop.into());
-        }
-        self.systems += 1;
-        let factor = factor.ok_or(Ending::Singular)?;
+        let singular = || monitor.stop().map_or(Ending::Singular, Ending::Stopped);
+        let factor = factor.ok_or_else(singular)?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);
         let mut step = vec![[0.0; 3]; pairs.len()];

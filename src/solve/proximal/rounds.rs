@@ -77,13 +77,9 @@ pub trait InSeries {
 pub struct RoundsFound {
     /// The best result.
     pub solution: Solution,
-    /// How the forces have grown.
-    pub growth: Growth,
+    /// The forces that each of the last rounds has added, if they go on and on.
+    pub pattern: Option<Vec<f64>>,
 }
-
-/// The rounds of a problem from a start.
-type RoundsOf<'r, 'p, R> =
-    dyn FnMut(&ContactProblem<'p, R>, &Settings, Option<&[f64]>) -> Result<RoundsFound, Error> + 'r;
 
 /// Solves a problem by `rounds` from a start. Where forces do not settle, looks for normal forces which prove that the gaps
 /// contradict each other, says in the message what was found, and returns the proof. `number` tells which pair of the
@@ -92,22 +88,24 @@ pub fn solve<'p, R: Clone + Redundant>(
     problem: &ContactProblem<'p, R>,
     number: &dyn Fn(usize) -> usize,
     (settings, start): (&Settings, Option<&[f64]>),
-    rounds: &mut RoundsOf<'_, 'p, R>,
+    mut rounds: impl FnMut(
+        &ContactProblem<'p, R>,
+        &Settings,
+        Option<&[f64]>,
+    ) -> Result<RoundsFound, Error>,
 ) -> Result<(RoundsFound, Option<Vec<f64>>), Error> {
     let mut found = rounds(problem, settings, start)?;
     if found.solution.status != Status::Stalled {
         return Ok((found, None));
     }
-    let proof = |growth: &Growth| {
-        growth.pattern().filter(|pattern| contradicts(problem, pattern)).map(<[f64]>::to_vec)
-    };
-    let mut proved = proof(&found.growth);
+    let is_proof = |pattern: &Vec<f64>| contradicts(problem, pattern);
+    let mut proved = found.pattern.clone().filter(is_proof);
     if proved.is_none() {
         // With friction they may hide behind forces that wedge.
         let settings = Settings { method: Method::Auto, ..settings.clone() };
-        proved = proof(&rounds(&without_friction(problem), &settings, None)?.growth);
+        proved = rounds(&without_friction(problem), &settings, None)?.pattern.filter(is_proof);
     }
-    let pattern = proved.as_deref().or(found.growth.pattern());
+    let pattern = proved.as_deref().or(found.pattern.as_deref());
     let eta = found.solution.certificate.eta;
     found.solution.message = sentence(problem, pattern, proved.is_some(), eta, number).into();
     Ok((found, proved))
@@ -141,7 +139,7 @@ pub fn rounds<R: Redundant>(
         }
     }
     let solution = rounds.best.ok_or(Error::OutOfMemory("a round with springs"))?;
-    Ok(RoundsFound { solution, growth: rounds.growth })
+    Ok(RoundsFound { solution, pattern: rounds.growth.pattern().map(<[f64]>::to_vec) })
 }
 
 /// The iteration.
