@@ -248,14 +248,20 @@ pub fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64], n: usize) {
         return;
     }
     let target = MatMut::from_column_major_slice_mut(target, rows, columns);
-    let blocks = blocks_of_columns(target.transpose_mut(), SIDE).enumerate();
     let (a, b) = (
-        MatRef::from_column_major_slice(a, n, rows).transpose(),
+        MatRef::from_column_major_slice(a, n, rows),
         MatRef::from_column_major_slice(b, n, columns),
     );
-    each(blocks, reading(rows * n).max((rows * n * columns) as f64), |(block, target)| {
-        let a = a.subrows(SIDE * block, target.ncols());
-        matmul(target.transpose_mut(), Accum::Add, a, b, -1.0, Par::Seq);
+    // Blocks of the longer side, all about as long.
+    let (target, a, b) = match columns > rows {
+        true => (target, a, b),
+        false => (target.transpose_mut(), b, a),
+    };
+    let length = b.ncols().div_ceil(b.ncols().div_ceil(SIDE));
+    let blocks = blocks_of_columns(target, length).enumerate();
+    each(blocks, reading(n * b.ncols()).max((rows * n * columns) as f64), |(block, target)| {
+        let own = b.subcols(length * block, target.ncols());
+        matmul(target, Accum::Add, a.transpose(), own, -1.0, Par::Seq);
     });
 }
 
