@@ -1,5 +1,5 @@
-//! A surface of a mesh and what it may touch: what the host hands over, and what is refused, as faces for their shape, and neighbours of which one
-//! is turned over.
+//! A surface of a mesh and the other side, as the host hands them over, and what is refused: faces for their shape, and
+//! neighbours of which one is turned over.
 
 use std::collections::HashMap;
 
