@@ -47,7 +47,8 @@ pub(super) fn pair_of_row(
     })
 }
 
-/// The pairs of rows; slave nodes without a row are unpaired. The number of slave faces and the covered area are added to the report.
+/// The pairs of rows; slave nodes without a row are unpaired. The number of slave faces and the covered area are added to
+/// the report.
 ///
 /// # Errors
 /// Those of `pair`, which makes a pair of a node and its row; what ends the watch.

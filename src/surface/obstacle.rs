@@ -19,8 +19,8 @@ fn refuse<T>(message: &str) -> Result<T, Error> {
     Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
 }
 
-/// Pairs the nodes of a side, whose lists are in order, with an obstacle, up to the search distance (`None` or infinite: all of
-/// them).
+/// Pairs the nodes of a side, whose lists are in order, with an obstacle, up to the search distance (`None` or infinite:
+/// all of them).
 ///
 /// # Errors
 /// As [`super::pair_surfaces`] says.
