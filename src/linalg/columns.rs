@@ -49,6 +49,12 @@ impl Columns {
         MatMut::from_column_major_slice_with_stride_mut(entries, self.rows, self.columns, ld)
     }
 
+    /// All columns, and entries from one to the next.
+    pub fn values_mut(&mut self) -> (&mut [f64], usize) {
+        let end = self.place((0, self.columns));
+        (&mut self.memory[self.first..end], self.ld)
+    }
+
     /// Column `j`.
     pub fn column(&self, j: usize) -> &[f64] {
         &self.memory[self.place((0, j))..][..self.rows]

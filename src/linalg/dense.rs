@@ -15,7 +15,7 @@ use faer::{Accum, MatMut, MatRef, Par, Spec};
 use super::columns::Columns;
 use super::small_products::SMALL_PRODUCT;
 use super::vector::dot;
-use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns, filled};
+use super::watched::{BLOCK, GoesOn, SIDE, blocks_of_columns, fill_columns, filled};
 use crate::workers::{each, each_while, reading};
 
 /// Subtracts the products `a bᵀ` from the entries `(row(i), column(j))` of a matrix, `i < rows` and `j < columns`; of
@@ -175,7 +175,10 @@ impl Triangle {
                 Triangle::UnitLower => (solve_unit_lower_triangular_in_place, end, below),
                 Triangle::Upper => (solve_upper_triangular_in_place, 0, above),
             };
-            solved(corner, own.as_mut(), Par::Seq);
+            let multiplications = (corner.nrows() * corner.nrows() * columns) as f64 / 2.0;
+            each(blocks_of_columns(own.as_mut(), BLOCK / 2), multiplications, |own| {
+                solved(corner, own, Par::Seq);
+            });
             let numbers = others.nrows() * (end - begin);
             let multiplications = reading(numbers).max((numbers * columns) as f64);
             let parts = blocks_of_columns(others.transpose_mut(), SIDE).enumerate();
@@ -200,11 +203,7 @@ pub fn schur_complement(
 ) -> Option<(Columns, Vec<f64>)> {
     let mut half = filled((m, lower.nrows()), coupling, goes_on)?;
     let mut schur = vec![0.0; m * m];
-    let blocks = schur.chunks_mut((m * BLOCK).max(1)).enumerate();
-    each(blocks, reading(m * m), |(block, columns)| {
-        let columns = columns.chunks_exact_mut(m).zip(BLOCK * block..);
-        columns.for_each(|(column, j)| corner(j, &mut column[j..]));
-    });
+    fill_columns(&mut schur, m, |j, column| corner(j, &mut column[j..]), &mut || true);
     let multiplications = (lower.nrows() * lower.nrows() * m) as f64 / 2.0;
     let rows = blocks_of_columns(half.as_mut().transpose_mut(), BLOCK);
     let divided =

@@ -11,6 +11,9 @@ pub const BLOCK: usize = 64;
 /// Rows or columns of a part of a product, which a thread does at once: products of so many are fast.
 pub const SIDE: usize = 256;
 
+/// Numbers of a part of a matrix that a thread writes at once: it takes far longer than to hand the part out.
+const PART: usize = 1 << 14;
+
 /// Additions and multiplications between two questions: some ten milliseconds.
 pub const WORK: usize = 1 << 28;
 
@@ -59,13 +62,25 @@ pub fn filled(
     goes_on: GoesOn<'_>,
 ) -> Option<Columns> {
     let mut matrix = Columns::zeros(rows, columns);
-    let is_long = rows * columns > SHORT * SHORT;
-    let blocks = blocks_of_columns(matrix.as_mut(), BLOCK).enumerate();
-    let fill = |(block, columns)| {
-        columns_of(columns).enumerate().for_each(|(j, column)| fill(BLOCK * block + j, column));
+    let (values, ld) = matrix.values_mut();
+    fill_columns(values, ld, |j, column| fill(j, &mut column[..rows]), goes_on).then_some(matrix)
+}
+
+/// Writes each of the contiguous columns of so many rows by `fill(j, column)`; `false` where `goes_on` says no.
+pub fn fill_columns(
+    values: &mut [f64],
+    rows: usize,
+    fill: impl Fn(usize, &mut [f64]) + Sync,
+    goes_on: GoesOn<'_>,
+) -> bool {
+    let (work, is_long) = (reading(values.len()), values.len() > SHORT * SHORT);
+    let at_once = (PART / rows.max(1)).clamp(1, BLOCK);
+    let blocks = values.chunks_mut((rows * at_once).max(1)).enumerate();
+    let fill = |(block, columns): (usize, &mut [f64])| {
+        let columns = columns.chunks_exact_mut(rows).zip(at_once * block..);
+        columns.for_each(|(column, j)| fill(j, column));
     };
-    each_while(blocks, reading(rows * columns), fill, &mut || !is_long || goes_on())
-        .then_some(matrix)
+    each_while(blocks, work, fill, &mut || !is_long || goes_on())
 }
 
 /// The lower triangle `entry(i, j)` of an `n x n` matrix; `None` where `goes_on` says no.

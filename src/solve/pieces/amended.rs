@@ -12,7 +12,7 @@ use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
-use crate::linalg::watched::GoesOn;
+use crate::linalg::watched::{GoesOn, fill_columns};
 
 /// A factorised system with a change. Its functions take the equations, whose matrix stays.
 pub struct Amended {
@@ -95,24 +95,26 @@ impl Amended {
         };
         let terms: Vec<(usize, Term)> = terms.into_iter().map(placed).collect();
         let known = self.columns.components();
-        let mut pushes = Vec::with_capacity(changed.held.len() * known.len());
-        for &j in known {
-            pushes.extend(changed.held.iter().map(|&i| equations.change_entry(i, j)));
-        }
+        let mut pushes = vec![0.0; changed.held.len() * known.len()];
+        let fill = |place: usize, column: &mut [f64]| {
+            let entries = changed.held.iter().map(|&i| equations.change_entry(i, known[place]));
+            column.iter_mut().zip(entries).for_each(|(push, entry)| *push = entry);
+        };
+        fill_columns(&mut pushes, changed.held.len(), fill, &mut || true);
         let coordinates = changed.coordinates(&self.base, self.columns.values(), pushes);
         let (count, size) = (terms.len(), changed.places.len());
         let mut matrix = vec![0.0; count * count];
-        let mut z = vec![0.0; size];
-        for (j, (column, (_, term))) in matrix.chunks_exact_mut(count).zip(&terms).enumerate() {
-            z.fill(0.0);
-            for (place, u) in self.columns.parts(term) {
+        let fill = |j: usize, column: &mut [f64]| {
+            let mut z = vec![0.0; size];
+            for (place, u) in self.columns.parts(&terms[j].1) {
                 let own = &coordinates[size * place..size * (place + 1)];
                 z.iter_mut().zip(own).for_each(|(z, own)| *z += u * own);
             }
             let along = terms.iter().map(|(at, row)| row.along(&z[*at..]));
             column.iter_mut().zip(along).for_each(|(entry, along)| *entry = along);
             column[j] += 1.0;
-        }
+        };
+        fill_columns(&mut matrix, count, fill, &mut || true);
         let fill = |j: usize, entries: &mut [f64]| {
             entries.copy_from_slice(&matrix[count * j..count * (j + 1)]);
         };
@@ -215,19 +217,20 @@ impl Changed {
         let (dim, size, mut pushes) = (self.places.len() / self.pairs.len(), base.size(), b);
         subtract_product(&mut pushes, &self.rows, x, size);
         let known = x.len().checked_div(size).unwrap_or(pushes.len() / self.held.len().max(1));
-        let mut coordinates = Vec::with_capacity(known * self.places.len());
-        let mut pushes = pushes.into_iter();
-        for column in 0..known {
-            let x = &x[size * column..size * (column + 1)];
-            for (&pair, places) in self.pairs.iter().zip(self.places.chunks_exact(dim)) {
-                let begin = coordinates.len();
-                coordinates.extend(places.iter().map(|place| match place {
+        let mut coordinates = vec![0.0; known * self.places.len()];
+        let fill = |column: usize, own: &mut [f64]| {
+            let x = &x[size * column..];
+            let mut pushes = pushes[self.held.len() * column..].iter();
+            for (own, place) in own.iter_mut().zip(&self.places) {
+                *own = match place {
                     Some((place, unit)) => x[*place] * unit,
-                    None => pushes.next().expect("one for each that was no unknown"),
-                }));
-                base.pairs()[pair].complete(&mut coordinates[begin..]);
+                    None => *pushes.next().expect("one for each that was no unknown"),
+                };
             }
-        }
+            let pairs = self.pairs.iter().zip(own.chunks_exact_mut(dim));
+            pairs.for_each(|(&pair, own)| base.pairs()[pair].complete(own));
+        };
+        fill_columns(&mut coordinates, self.places.len(), fill, &mut || true);
         coordinates
     }
 }

@@ -3,8 +3,7 @@
 use super::equations::Equations;
 use crate::law::Unknown;
 use crate::linalg::dense::subtract_product;
-use crate::linalg::watched::BLOCK;
-use crate::workers::{each, reading};
+use crate::linalg::watched::fill_columns;
 
 /// Solutions of a system from which on the rows of its held components are gathered: that takes the time of about so many
 /// products with `K`.
@@ -38,7 +37,8 @@ impl Held {
         b.chunks_exact(size).for_each(|b| pushes.extend(self.components.iter().map(|&i| b[i])));
         self.solutions += b.len() / size;
         if self.rows.is_empty() && self.solutions >= GATHERED {
-            self.rows = rows(equations, &self.components, unknowns.iter().map(at).collect());
+            let at: Vec<(usize, f64)> = unknowns.iter().map(|own| (at(own), 1.0)).collect();
+            self.rows = rows(equations, &self.components, &at);
         }
         if !self.rows.is_empty() {
             subtract_product(&mut pushes, &self.rows, moved, count);
@@ -55,20 +55,17 @@ impl Held {
     }
 }
 
-/// The rows of `K` of the components that are held, each with the columns `at`.
-pub fn rows(equations: &Equations<'_>, held: &[usize], at: Vec<usize>) -> Vec<f64> {
+/// The rows of `K` of the components that are held, each with the columns at places, in their units.
+pub fn rows(equations: &Equations<'_>, held: &[usize], at: &[(usize, f64)]) -> Vec<f64> {
     let matrix = equations.matrix;
     let mut rows = vec![0.0; held.len() * at.len()];
-    // A block of rows is a part for a thread.
-    let blocks = rows.chunks_mut((BLOCK * at.len()).max(1)).zip(held.chunks(BLOCK));
-    each(blocks, reading(held.len() * at.len()), |(rows, held)| {
-        for (row, &i) in rows.chunks_exact_mut(at.len()).zip(held) {
-            let column = matrix.column(i);
-            for (entry, &j) in row.iter_mut().zip(&at) {
-                // The columns of a symmetric matrix are contiguous, its rows are not.
-                *entry = if equations.symmetric { column[j] } else { matrix.at(i, j) };
-            }
+    let fill = |k: usize, row: &mut [f64]| {
+        let (i, column) = (held[k], matrix.column(held[k]));
+        for (entry, &(j, unit)) in row.iter_mut().zip(at) {
+            // The columns of a symmetric matrix are contiguous, its rows are not.
+            *entry = unit * if equations.symmetric { column[j] } else { matrix.at(i, j) };
         }
-    });
+    };
+    fill_columns(&mut rows, at.len(), fill, &mut || true);
     rows
 }

@@ -22,7 +22,7 @@ use crate::law::{Assembly, Image, Linearised, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
-use crate::linalg::watched::GoesOn;
+use crate::linalg::watched::{GoesOn, fill_columns};
 
 /// The border of a system: `border . (dy, ds) = wanted`.
 pub struct Border<'b> {
@@ -176,12 +176,8 @@ impl System {
 
     /// The rows of `K` of some components with the columns of the unknowns, in their units.
     pub fn rows(&self, equations: &Equations<'_>, components: &[usize]) -> Vec<f64> {
-        let at = |own: &Unknown| self.dim * own.pair + own.component;
-        let mut rows = held::rows(equations, components, self.unknowns.iter().map(at).collect());
-        for row in rows.chunks_exact_mut(self.size().max(1)) {
-            row.iter_mut().zip(&self.unknowns).for_each(|(entry, own)| *entry *= own.column);
-        }
-        rows
+        let at = |own: &Unknown| (self.dim * own.pair + own.component, own.column);
+        held::rows(equations, components, &self.unknowns.iter().map(at).collect::<Vec<_>>())
     }
 
     /// True if the system is one of these equations, whose matrix it has.
@@ -201,18 +197,21 @@ impl System {
 
     /// The right-hand sides of the unknowns for each column of `b`.
     fn right_sides(&self, b: &[f64]) -> Vec<f64> {
-        let dim = self.dim;
-        let mut sides = Vec::with_capacity(self.unknowns.len() + 1);
-        for b in b.chunks_exact(self.all.max(1)) {
-            sides.extend(self.unknowns.iter().map(|unknown| {
-                let at = dim * unknown.pair;
+        let (size, columns) = (self.size(), b.len().checked_div(self.all).unwrap_or(0));
+        let mut sides = Vec::with_capacity(size * columns + 1);
+        sides.resize(size * columns, 0.0);
+        let fill = |column: usize, sides: &mut [f64]| {
+            let b = &b[self.all * column..];
+            for (side, unknown) in sides.iter_mut().zip(&self.unknowns) {
+                let at = self.dim * unknown.pair;
                 let dragged = match unknown.component {
                     0 => 0.0,
                     c => self.pairs[unknown.pair].slopes.drag[c - 1] * b[at],
                 };
-                (b[at + unknown.component] - dragged) * unknown.row
-            }));
-        }
+                *side = (b[at + unknown.component] - dragged) * unknown.row;
+            }
+        };
+        fill_columns(&mut sides, size, fill, &mut || true);
         sides
     }
 
