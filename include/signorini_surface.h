@@ -135,7 +135,9 @@ struct signorini_surface_settings {
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
      * Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
      * sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
-     * size of the largest slave face at most; an obstacle without faces has no limit.
+     * size of the largest slave face at most, and not through the body behind the slave face; an
+     * obstacle without faces has no limit. Over a step or an edge of the master a slave face is
+     * paired with the nearer part alone.
      */
     double search_distance;
     /**

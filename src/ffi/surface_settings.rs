@@ -46,7 +46,9 @@ pub struct SignoriniSurfaceSettings {
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
     /// Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
     /// sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
-    /// size of the largest slave face at most; an obstacle without faces has no limit.
+    /// size of the largest slave face at most, and not through the body behind the slave face; an
+    /// obstacle without faces has no limit. Over a step or an edge of the master a slave face is
+    /// paired with the nearer part alone.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.

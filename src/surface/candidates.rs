@@ -2,6 +2,8 @@
 
 use super::face::Face;
 use super::mesh::Side;
+use super::plane::Plane;
+use super::shape::BEYOND;
 use super::sweep::Sweep;
 use super::tree::Tree;
 use super::watch::Watch;
@@ -11,6 +13,10 @@ use crate::linalg::vector3::Vector3;
 /// Faces oppose each other if the cosine between their normals is below this: they are inclined by less
 /// than 78 degrees, and the projection of one on the other keeps a fifth of its area.
 const OPPOSED: f64 = -0.2;
+
+/// Between neighbours whose normals have a cosine below this is an edge of the body: coarse arcs turn by less than 60 degrees
+/// from face to face.
+const BEND: f64 = 0.5;
 
 /// Faces look the same way if the cosine between their normals is above this. Of two meshes of one curved surface, and
 /// of neighbours on it, normals differ by the angle of a face, say 30 degrees on coarse ones.
@@ -28,6 +34,11 @@ pub(super) struct Reach {
 }
 
 impl Reach {
+    /// Bodies that are thinner than this are shells: their two sides are one surface.
+    pub(super) fn of_shells(&self) -> f64 {
+        BEYOND * self.overlap
+    }
+
     pub(super) fn holds(&self, distance: f64) -> bool {
         (-self.overlap..=self.open).contains(&distance)
     }
@@ -35,6 +46,7 @@ impl Reach {
 
 /// The faces of a side as a search needs them.
 pub(super) struct SearchFaces<'a> {
+    side: &'a Side<'a>,
     pub(super) tree: Tree<'a>,
     /// Unit normals in the middle of the faces.
     pub(super) normals: Vec<Vector3>,
@@ -52,7 +64,29 @@ impl<'a> SearchFaces<'a> {
             watch.goes_on()?;
             normals.push(side.face(face).middle_normal());
         }
-        Ok(SearchFaces { tree: Tree::new(side), normals })
+        Ok(SearchFaces { side, tree: Tree::new(side), normals })
+    }
+
+    /// True if the body of these faces ends between a point of its surface with an outward normal and a depth below it, at
+    /// least so far below: a master face that overlaps by that depth is seen through the body, and touches another part of
+    /// its surface, if any.
+    pub(super) fn end_above(
+        &mut self,
+        (point, normal): (Vector3, Vector3),
+        depth: f64,
+        least: f64,
+    ) -> bool {
+        if depth <= least {
+            return false;
+        }
+        let mut near = Vec::new();
+        self.tree.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
+        let plane = Plane::new(self.side.dim, point, normal);
+        near.into_iter().filter(|&at| self.normals[at].dot(&normal) < 0.0).any(|at| {
+            let flat = plane.flatten(&self.side.face(at));
+            let below = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local));
+            below.is_some_and(|local| (least..depth).contains(&-flat.height(local)))
+        })
     }
 }
 
@@ -72,6 +106,11 @@ pub(super) struct Candidates<'a> {
 impl<'a> Candidates<'a> {
     pub(super) fn new(master: SearchFaces<'a>, reach: Reach, span: f64) -> Candidates<'a> {
         Candidates { master, reach, span, found: Vec::new(), searched: 0, not_opposed: 0 }
+    }
+
+    /// True if master faces beside each other are of one surface, and no edge of the body is between them.
+    pub(super) fn are_of_one_surface(&self, [a, b]: [usize; 2]) -> bool {
+        self.master.normals[a].dot(&self.master.normals[b]) > BEND
     }
 
     /// Master faces within reach of a slave face whose normals oppose its own.

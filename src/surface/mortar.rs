@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::assembly::{pair_of_row, pairs_of_rows};
-use super::candidates::{Candidates, SAME_WAY};
+use super::candidates::{Candidates, SAME_WAY, SearchFaces};
 use super::control::Edges;
 use super::face::Face;
 use super::mesh::Side;
@@ -20,6 +20,7 @@ use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
+use super::self_overlap::UPON;
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
 use super::true_shape::TrueSides;
@@ -35,6 +36,7 @@ type Cover = (Option<Covered>, bool);
 struct Search<'a> {
     sides: [&'a Side<'a>; 2],
     planes: &'a OnPlanes,
+    own: SearchFaces<'a>,
     candidates: Candidates<'a>,
     shapes: Option<TrueSides<'a>>,
     overlaps: Overlaps,
@@ -49,7 +51,7 @@ struct Search<'a> {
 pub(super) fn pairs<'a>(
     sides: [&'a Side<'a>; 2],
     planes: &'a OnPlanes,
-    candidates: Candidates<'a>,
+    (own, candidates): (SearchFaces<'a>, Candidates<'a>),
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
@@ -58,7 +60,7 @@ pub(super) fn pairs<'a>(
     let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
     let shapes = TrueSides::new(sides, &settings.shapes, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
-    let mut search = Search { sides, planes, candidates, shapes, overlaps, polynomials };
+    let mut search = Search { sides, planes, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
         watch.step()?;
@@ -99,7 +101,7 @@ fn mean_normal(node: usize, row: &Row) -> Result<Vector3, Error> {
     })
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
     /// The part of the master that a slave face lies over.
     fn cover(
         &mut self,
@@ -107,13 +109,57 @@ impl Search<'_> {
         face: &Face<'_>,
         watch: &mut Watch<'_, '_>,
     ) -> Result<Cover, Error> {
-        let Search { sides: [slave, master], planes, candidates, shapes, overlaps, polynomials } =
-            self;
         let normal = face.middle_normal();
+        let mut parts = self.opposite(at, (face, normal), watch)?;
+        let Search { sides: [slave, _], planes, own, candidates, shapes, overlaps, polynomials } =
+            self;
+        let (points, reach) = (&mut overlaps.points, candidates.reach);
+        let is_reached = |opposite: &Opposite<'_>| {
+            let from = face.position(points[opposite.points.start].slave);
+            !own.end_above((from, normal), -opposite.part.distance, reach.of_shells())
+        };
+        let kept: Vec<bool> = parts.iter().map(is_reached).collect();
+        keep(&mut parts, points, &kept);
+        let kept = nearest_layer(&parts, reach.layer);
+        keep(&mut parts, points, &kept);
+        let share = |parts: &[Opposite<'_>]| parts.iter().map(|part| part.part.share).sum::<f64>();
+        if share(&parts) > 1.0 + SAME_COVER {
+            let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
+            let what = format!(
+                "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
+                 give a smaller search distance",
+                over.join(", ")
+            );
+            return Err(slave.refuse(at, &what));
+        }
+        let most = UPON * face.size();
+        let kept = one_surface(&parts, |a, b| {
+            a.part.joins(&b.part, most) && candidates.are_of_one_surface([a.at, b.at])
+        });
+        keep(&mut parts, points, &kept);
+        let is_off_axis = !planes.touch_axis(face);
+        if parts.is_empty() {
+            return Ok((None, is_off_axis));
+        }
+        let mut covered = polynomials.project(face.kind, points, &parts);
+        if let Some(shapes) = shapes {
+            covered.gaps = polynomials.fit(&shapes.gaps((at, face), points, &parts));
+        }
+        Ok((Some(covered), share(&parts) >= 1.0 - SAME_COVER && is_off_axis))
+    }
+
+    /// The parts of a slave face with a normal over master faces within reach, with their points.
+    fn opposite(
+        &mut self,
+        at: usize,
+        (face, normal): (&Face<'_>, Vector3),
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Vec<Opposite<'a>>, Error> {
+        let Search { sides: [slave, master], candidates, overlaps, .. } = self;
         let in_plane = SlaveFace::new(face, normal);
         overlaps.points.clear();
         let reach = candidates.reach;
-        let mut parts: Vec<Opposite<'_>> = Vec::new();
+        let mut parts = Vec::new();
         for &opposite in candidates.of_face(face, normal) {
             watch.goes_on()?;
             let other = master.face(opposite);
@@ -133,46 +179,52 @@ impl Search<'_> {
                 parts.push(Opposite { at: opposite, kind, nodes, points, part });
             }
         }
-        keep_nearest(&mut parts, &mut overlaps.points, reach.layer);
-        let is_off_axis = !planes.touch_axis(face);
-        if parts.is_empty() {
-            return Ok((None, is_off_axis));
-        }
-        let cover = parts.iter().map(|opposite| opposite.part.share).sum::<f64>();
-        if cover > 1.0 + SAME_COVER {
-            let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
-            let what = format!(
-                "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
-                 give a smaller search distance",
-                over.join(", ")
-            );
-            return Err(slave.refuse(at, &what));
-        }
-        let mut covered = polynomials.project(face.kind, &overlaps.points, &parts);
-        if let Some(shapes) = shapes {
-            covered.gaps = polynomials.fit(&shapes.gaps((at, face), &overlaps.points, &parts));
-        }
-        Ok((Some(covered), cover >= 1.0 - SAME_COVER && is_off_axis))
+        Ok(parts)
     }
 }
 
-/// Leaves out the parts that are further away than the nearest one by more than a layer, with their points.
-fn keep_nearest(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, layer: f64) {
-    let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
-    let most = distances.fold(f64::INFINITY, f64::min) + layer;
-    if parts.iter().all(|opposite| opposite.part.distance.abs() <= most) {
+/// Keeps some of the parts, with their points.
+fn keep(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, kept: &[bool]) {
+    if kept.iter().all(|kept| *kept) {
         return;
     }
-    let all = std::mem::take(points);
+    let (all, mut kept) = (std::mem::take(points), kept.iter());
     parts.retain_mut(|opposite| {
-        let first = points.len();
-        let keeps = opposite.part.distance.abs() <= most;
+        let (first, keeps) = (points.len(), kept.next() == Some(&true));
         if keeps {
             points.extend(&all[opposite.points.clone()]);
             opposite.points = first..points.len();
         }
         keeps
     });
+}
+
+/// The parts that are no further away than the nearest one by more than a layer.
+fn nearest_layer(parts: &[Opposite<'_>], layer: f64) -> Vec<bool> {
+    let distances = || parts.iter().map(|opposite| opposite.part.distance.abs());
+    let most = distances().fold(f64::INFINITY, f64::min) + layer;
+    distances().map(|distance| distance <= most).collect()
+}
+
+/// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between
+/// theirs; across a step they jump. Weights are negative on a part of a face, so that with both sides of a step, or of an edge
+/// of the body, gaps would be less than all distances.
+fn one_surface(
+    parts: &[Opposite<'_>],
+    joins: impl Fn(&Opposite<'_>, &Opposite<'_>) -> bool,
+) -> Vec<bool> {
+    let distance = |at: &usize| parts[*at].part.distance.abs();
+    let mut kept = vec![false; parts.len()];
+    let first = (0..parts.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut reached: Vec<usize> = first.into_iter().collect();
+    while let Some(at) = reached.pop() {
+        kept[at] = true;
+        let is_new = |other: &usize| !kept[*other] && joins(&parts[at], &parts[*other]);
+        let more: Vec<usize> = (0..parts.len()).filter(is_new).collect();
+        more.iter().for_each(|&other| kept[other] = true);
+        reached.extend(more);
+    }
+    kept
 }
 
 /// The rows of all nodes with cover, by node. The areas of all faces are added to those of the report.

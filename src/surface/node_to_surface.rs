@@ -10,7 +10,7 @@
 use std::collections::BTreeMap;
 
 use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
-use super::candidates::Candidates;
+use super::candidates::{Candidates, SearchFaces};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::foot;
@@ -18,19 +18,11 @@ use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::Row;
 use super::settings::Normals;
-use super::shape::{FaceKind, Local};
-use super::sweep::BEYOND;
+use super::shape::{BEYOND, Local};
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
-
-pub(super) fn is_on(kind: FaceKind, [s, t]: Local) -> bool {
-    if kind.is_triangle() {
-        return s >= -BEYOND && t >= -BEYOND && s + t <= 1.0 + BEYOND;
-    }
-    s.abs().max(t.abs()) <= 1.0 + BEYOND
-}
 
 /// A point of a master face that a slave node meets.
 struct MasterPoint {
@@ -50,14 +42,14 @@ impl MasterPoint {
         is_near: impl Fn(f64) -> bool,
     ) -> Option<MasterPoint> {
         let weights = || face.nodes.iter().copied().zip(face.kind.values(at)).collect();
-        let meets = is_on(face.kind, at) && is_near(distance);
-        meets.then(|| MasterPoint { distance: distance.abs(), weights: weights(), normal })
+        let meets = face.kind.holds(at) && is_near(distance);
+        meets.then(|| MasterPoint { distance, weights: weights(), normal })
     }
 }
 
 /// The nearest meeting; of several the first one.
 fn nearest(meetings: impl Iterator<Item = MasterPoint>) -> Option<MasterPoint> {
-    meetings.min_by(|a, b| a.distance.total_cmp(&b.distance))
+    meetings.min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()))
 }
 
 /// The master point that a node with an averaged normal meets, the nearest if there are several.
@@ -65,7 +57,7 @@ fn meets(
     master: &Side<'_>,
     (x, averaged): (Vector3, Vector3),
     normals: Normals,
-    candidates: &mut Candidates<'_>,
+    (own, candidates): (&mut SearchFaces<'_>, &mut Candidates<'_>),
 ) -> Option<MasterPoint> {
     let plane = Plane::new(master.dim, x, averaged);
     let reach = candidates.reach;
@@ -80,11 +72,14 @@ fn meets(
         };
         MasterPoint::new(&face, (at, normal), flat.height(at), |distance| reach.holds(distance))
     }))?;
+    if own.end_above((x, averaged), -along_ray.distance, reach.of_shells()) {
+        return None;
+    }
     if normals == Normals::Averaged {
         return Some(along_ray);
     }
     // On the face that the ray meets it is no further; another one further away is no neighbour.
-    let nearer = |distance: f64| distance <= (1.0 + BEYOND) * along_ray.distance;
+    let nearer = |distance: f64| distance <= (1.0 + BEYOND) * along_ray.distance.abs();
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x)?;
         MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
@@ -99,7 +94,7 @@ fn meets(
 pub(super) fn pairs(
     sides: [&Side<'_>; 2],
     planes: &OnPlanes,
-    mut candidates: Candidates<'_>,
+    (mut own, mut candidates): (SearchFaces<'_>, Candidates<'_>),
     normals: Normals,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
@@ -109,7 +104,7 @@ pub(super) fn pairs(
     for node in slave.all_nodes() {
         watch.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
-        if let Some(meeting) = meets(master, ray, normals, &mut candidates) {
+        if let Some(meeting) = meets(master, ray, normals, (&mut own, &mut candidates)) {
             met.insert(node, meeting);
         }
     }

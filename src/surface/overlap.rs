@@ -28,6 +28,10 @@ const AROUND: f64 = 0.1;
 /// An edge of the length of the face stands off the straight one by this share of the face's distortion, relative to it.
 const OF_DISTORTION: f64 = 0.125;
 
+/// Beyond the points of a part distances reach further by at most this share of what they differ by at these: with two
+/// points along a line by .37 at either end.
+const BEYOND_POINTS: f64 = 0.5;
+
 /// At this distortion a corner is straight, and at this slope by a warp no series of the area converges.
 const FOLDED: f64 = 1.0;
 
@@ -57,8 +61,18 @@ pub(super) struct SlaveFace<'a> {
 pub(super) struct Part {
     /// Share of the slave face.
     pub(super) share: f64,
-    /// Mean distance along the normal.
+    /// Mean distance along the normal, and its least and largest value at the points.
     pub(super) distance: f64,
+    range: [f64; 2],
+}
+
+impl Part {
+    /// True if the distances of two parts of a face are those of one surface, with a step of so much at most.
+    pub(super) fn joins(&self, other: &Part, step: f64) -> bool {
+        let [(a, b), (c, d)] = [self, other].map(|part| (part.range[0], part.range[1]));
+        let apart = (c - b).max(a - d);
+        apart <= BEYOND_POINTS * (b - a + d - c) + step
+    }
 }
 
 /// The common parts of a slave face and master faces, in memory that the next one uses again.
@@ -118,12 +132,13 @@ impl<'a> SlaveFace<'a> {
             return Ok(Part::default());
         }
         let before = points.len();
-        let distance = self.add_points(&Flat::new(seen), common, points)?;
-        if !wanted(distance) {
+        let share = area / self.area;
+        let part = Part { share, ..self.add_points(&Flat::new(seen), common, points)? };
+        if !wanted(part.distance) {
             points.truncate(before);
             return Ok(Part::default());
         }
-        Ok(Part { share: area / self.area, distance })
+        Ok(part)
     }
 
     /// The share of the smaller of two faces that has the given share of this one.
@@ -190,14 +205,15 @@ impl<'a> SlaveFace<'a> {
         Some(of_distortion.max(of_warp))
     }
 
-    /// Adds the points of a common part, and returns its mean distance along the normal.
+    /// Adds the points of a common part, and returns its distances along the normal.
     fn add_points(
         &self,
         master: &Flat<'_>,
         common: &[Point],
         points: &mut Vec<Meeting>,
-    ) -> Result<f64, NotFound> {
+    ) -> Result<Part, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let in_plane = self.around.is_none();
         quadrature::points(common, self.points_along(master)).try_for_each(|(p, part)| {
             let slave = if in_plane { self.flat.local(p).ok_or(NotFound)? } else { p };
@@ -205,11 +221,13 @@ impl<'a> SlaveFace<'a> {
             let normal = along.cross(&across);
             let area = part * normal.norm() / if in_plane { normal.z.abs() } else { 1.0 };
             let at = master.local(if in_plane { p } else { [x.x, x.y] }).ok_or(NotFound)?;
-            distance += part * (master.height(at) - x.z);
+            let height = master.height(at) - x.z;
+            range = [range[0].min(height), range[1].max(height)];
+            distance += part * height;
             whole += part;
             points.push(Meeting { slave, master: at, weight: area * self.face.around(slave) });
             Ok(())
         })?;
-        Ok(distance / whole)
+        Ok(Part { distance: distance / whole, range, ..Part::default() })
     }
 }

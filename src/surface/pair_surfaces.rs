@@ -83,9 +83,9 @@ fn pair_sides(
     let candidates = Candidates::new(opposite, reach, span);
     let sides = [&slave, &master];
     let found = match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, &planes, candidates, settings, watch),
+        Pairing::DualMortar => mortar::pairs(sides, &planes, (own, candidates), settings, watch),
         Pairing::NodeToSurface => {
-            node_to_surface::pairs(sides, &planes, candidates, settings.normals, watch)
+            node_to_surface::pairs(sides, &planes, (own, candidates), settings.normals, watch)
         }
     };
     let found = found?;

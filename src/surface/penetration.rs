@@ -11,7 +11,6 @@ use super::candidates::{Candidates, Reach, SearchFaces};
 use super::exact_shape::Obstacle;
 use super::face::Face;
 use super::mesh::{Faces, Master, Side, Surfaces};
-use super::node_to_surface::is_on;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::Local;
@@ -182,7 +181,7 @@ impl KeptSurfaces {
             let plane = Plane::new(self.dim, x, normal);
             let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
                 let flat = plane.flatten(&after.face(at));
-                let local = flat.local([0.0; 2]).filter(|&local| is_on(flat.face.kind, local))?;
+                let local = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local))?;
                 let apart = before.face(at).position(local) - origin;
                 let was_before = normal.dot(&apart) >= -least;
                 let depth = -flat.height(local);

@@ -12,7 +12,7 @@ use crate::error::{Error, index};
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
 /// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees.
-const UPON: f64 = 0.05;
+pub(super) const UPON: f64 = 0.05;
 
 /// More than this share of the smaller face is common. Parts of a surface whose meshes meet along a curved line
 /// overlap by segments of the circle, 0.034 of a square that turns by 23 degrees along it.
@@ -26,7 +26,7 @@ const COMMON: f64 = 0.05;
 /// The two faces, and the share that is common; what ends the watch.
 pub(super) fn check(
     side: &Side<'_>,
-    SearchFaces { tree, normals }: &mut SearchFaces<'_>,
+    SearchFaces { tree, normals, .. }: &mut SearchFaces<'_>,
     reach: f64,
     watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {

@@ -65,7 +65,8 @@ pub struct SurfaceSettings {
     pub pairing: Pairing,
     /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: open surfaces up
     /// to half the diagonal of the smaller of the two sides' boxes, and of masters behind each other the nearest;
-    /// overlapping ones up to the size of the largest slave face; against an obstacle without faces no limit.
+    /// overlapping ones up to the size of the largest slave face, and not through the body behind the slave face; against an
+    /// obstacle without faces no limit. Over a step or an edge of the master a slave face is paired with the nearer part alone.
     pub search_distance: Option<f64>,
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.

@@ -13,6 +13,10 @@ pub(super) type Values = [f64; MOST_NODES];
 /// A point in a face's own coordinates. The second is zero on lines.
 pub(super) type Local = [f64; 2];
 
+/// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
+/// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
+pub(super) const BEYOND: f64 = 1e-9;
+
 /// The kind of a face, told by the space dimension and the number of its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FaceKind {
@@ -56,6 +60,14 @@ const BILINEAR: [[i32; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
 const ON_LINE: [[i32; 2]; 3] = [[0, 0], [1, 0], [2, 0]];
 
 impl FaceKind {
+    /// True if local coordinates are those of a point of the face.
+    pub(super) fn holds(self, [s, t]: Local) -> bool {
+        if self.is_triangle() {
+            return s >= -BEYOND && t >= -BEYOND && s + t <= 1.0 + BEYOND;
+        }
+        s.abs().max(t.abs()) <= 1.0 + BEYOND
+    }
+
     /// The kind with this number of nodes.
     pub(super) fn of(dim: usize, nodes: usize) -> Option<FaceKind> {
         let kinds: &[FaceKind] = if dim == 2 { &[Line2, Line3] } else { &[T3, Q4, T6, Q8, Q9] };

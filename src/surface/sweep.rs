@@ -3,15 +3,12 @@
 
 use super::face::Face;
 use super::plane::tangents;
+use super::shape::BEYOND;
 use crate::linalg::vector3::Vector3;
 
 /// Faces that have less than this in common, beside their largest coordinate, have nothing: rounding of the places
 /// themselves.
 const TOUCH: f64 = 4e-15;
-
-/// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
-/// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
-pub(super) const BEYOND: f64 = 1e-9;
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
