@@ -9,6 +9,9 @@ from ._mpc import mpc
 from ._structures import EquationList, sized
 
 
+_ORTHOGONAL = 1e-3  # axes are orthogonal unit vectors to this: decks have few digits
+
+
 class Equations:
     """A list of equations; structure: signorini_equations."""
 
@@ -37,18 +40,32 @@ class Equations:
             dofs=at(self.dofs), coefficients=at(self.coefficients))
         self.address = ctypes.addressof(self.structure)
 
+    def extended(self, u):
+        """u, and behind its end what the equations give to those that depend on it."""
+        size = 1 + max(len(u) - 1, self.dependent.max(initial=-1), self.dofs.max(initial=-1))
+        found, beyond = np.concatenate([u, np.zeros(size - len(u))]), self.dependent >= len(u)
+        rows = np.repeat(np.arange(len(self.dependent)), np.diff(self.start))
+        while True:  # dependents may depend on others, in no circle
+            sums = np.bincount(rows, self.coefficients * found[self.dofs], len(self.dependent))
+            if np.array_equal(found[self.dependent[beyond]], sums[beyond], equal_nan=True):
+                return found
+            found[self.dependent[beyond]] = sums[beyond]
+
 
 def turned_equations(dofs, own, turn):
     """Equations u = turn @ u' of nodes: turned axes, and images of a cyclic sector.
 
     dofs: those that follow, (n, D).  own: those of u', (n, D): of the same nodes in their own axes, or of the
-    nodes whose images they are.  turn: (D, D), or (n, D, D); its columns are the own axes.
+    nodes whose images they are.  turn: (D, D), or (n, D, D); its columns are the own axes, orthogonal unit vectors.
     """
     dofs, own = _nodes("dofs", dofs), _nodes("own", own)
     count, dim = dofs.shape
     if own.shape != dofs.shape:
         raise ValueError(f"own has the shape {own.shape}: give as many as dofs, shape {dofs.shape}")
     turn = np.broadcast_to(reals("turn", turn), (count, dim, dim))
+    off = abs(turn.swapaxes(1, 2) @ turn - np.eye(dim)).max(axis=(1, 2), initial=0.0)
+    if not (off < _ORTHOGONAL).all():
+        raise ValueError(f"turn of node {off.argmax()} is no rotation: give orthogonal unit vectors as its columns")
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
 
 
@@ -58,13 +75,16 @@ def section_equations(dofs, opposite, shortening, axis):
     The body is meshed in two, with two nodes at each place of the section: u[dofs] = u[opposite] - axis u[shortening].
     dofs, opposite: of the nodes on its two sides, (n, D).  shortening: the dof number of the unknown, a further row of
     K without entries. Its load is the force of the section, positive if it pulls; fixed, its value is the shortening.
-    axis: the unit vector from the side of opposite to that of dofs, (D,).
+    axis: the direction from the side of opposite to that of dofs, of any length, (D,).
     """
     dofs, opposite = _nodes("dofs", dofs), _nodes("opposite", opposite)
     count, dim = dofs.shape
     if opposite.shape != dofs.shape:
         raise ValueError(f"opposite has the shape {opposite.shape}: give as many as dofs, shape {dofs.shape}")
-    axis = fit("axis", axis, [(dim,)], f"a unit vector, shape {(dim,)}")
+    axis = fit("axis", axis, [(dim,)], f"a direction, shape {(dim,)}")
+    if not 0 < np.linalg.norm(axis) < np.inf:
+        raise ValueError(f"axis is {axis}: give the direction across the section")
+    axis = axis / np.linalg.norm(axis)
     return [(int(dofs[i, c]), [int(opposite[i, c]), int(shortening)], [1.0, -axis[c]])
             for i in range(count) for c in range(dim)]
 
@@ -102,19 +122,19 @@ def read_equations(path, number=None, coordinates=None):
     TIE, for small motions. Other types are refused by name.
     number: a function of node and direction, both as in the deck, that gives a dof number, or None if the node has no
     such direction; None: 3 * (node - 1) + direction - 1, without rotations.  coordinates: a dict of nodes and their
-    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, and cards with options, are refused.
+    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, and *INCLUDE are
+    refused.
     """
     cards = _Cards(path, number or _solid, coordinates)
     with open(path, encoding="utf-8", errors="replace") as deck:
-        for place, line in enumerate(deck, 1):
-            if line.startswith("**") or not line.strip():
-                continue
-            cards.line(place, line.strip(), [word.strip() for word in line.split(",")])
+        for place, line in enumerate(map(str.strip, deck), 1):
+            if line and not line.startswith("**"):
+                cards.line(place, line, [word.strip() for word in line.split(",")])
     return cards.end()
 
 
 def _solid(node, direction):
-    return 3 * (node - 1) + direction - 1 if direction <= 3 else None
+    return 3 * (node - 1) + direction - 1 if 1 <= direction <= 3 else None
 
 
 class _Cards:
@@ -136,6 +156,8 @@ class _Cards:
             self.card = words[0].upper().replace(" ", "")
             if self.card in ("*EQUATION", "*MPC") and any(words[1:]):
                 self.fail(place, f"{line}: a card with {words[1]} is not read")
+            if self.card == "*INCLUDE":
+                self.fail(place, f"{line}: the file is not read: put its lines in this place, or read it by itself")
         elif self.card == "*EQUATION":
             self.equation(place, line, words)
         elif self.card == "*MPC":
@@ -168,11 +190,16 @@ class _Cards:
                     raise ValueError
                 return
             words = words[:-1] if words[-1] == "" else words
-            for node, direction, factor in zip(*[iter(words)] * 3, strict=True):
-                self.terms.append((self.number(int(node), int(direction)), _real(factor)))
-                self.left -= 1
+            terms = [(int(node), int(direction), _real(factor))
+                     for node, direction, factor in zip(*[iter(words)] * 3, strict=True)]
         except ValueError:
             self.fail(place, f"{line}: this is no number of terms, or not node, direction, coefficient of each")
+        for node, direction, factor in terms:
+            dof = self.number(node, direction)
+            if dof is None:
+                self.fail(place, f"{line}: node {node} has no direction {direction}: give a number that knows it")
+            self.terms.append((dof, factor))
+            self.left -= 1
         if self.left < 0:
             self.fail(place, "the equation has more terms than was said")
         if not self.left:

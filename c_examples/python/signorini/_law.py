@@ -13,6 +13,7 @@ class Friction:
                              "thresholds (Tresca), or neither for no friction")
         if law is None and friction is not None:
             raise ValueError("friction is given without a law: give law, or mu or g")
+        self.is_given = not (mu is None and g is None and law is None)
         if law is None:
             self.law = (Law.COULOMB if mu is not None else
                         Law.TRESCA if g is not None else Law.FRICTIONLESS)

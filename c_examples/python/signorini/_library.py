@@ -3,6 +3,7 @@
 import ctypes
 import os
 import sys
+import weakref
 from types import SimpleNamespace
 
 from ._constants import ABI_VERSION, Status, member
@@ -92,6 +93,13 @@ def library():
     if _loaded is None:
         load()
     return _loaded
+
+
+class Owner:
+    """Frees an object of the library when nothing refers to it any more: copies of what holds it hold it too."""
+
+    def __init__(self, free, handle):
+        weakref.finalize(self, free, handle)
 
 
 def check(functions, status, message=None):

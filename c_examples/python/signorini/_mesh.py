@@ -82,10 +82,17 @@ def write_series(path, files, times=None):
     files: their paths, one for each step; they stand in the .pvd relative to its folder.  times: a number for each
     step, increasing; None: 0, 1, 2, ...
     """
+    if isinstance(files, (str, bytes, os.PathLike)):
+        raise TypeError(f"files is {files!r}: give a list of paths, one for each step")
     files = [os.fspath(file) for file in files]
     times = np.arange(len(files)) if times is None else reals("times", times)
-    if times.shape != (len(files),) or (np.diff(times) <= 0).any():
+    if times.shape != (len(files),):
         raise ValueError(f"times has the shape {times.shape}: give an increasing number for each of the {len(files)} files")
+    if not np.isfinite(times).all():
+        raise ValueError(f"times[{np.isfinite(times).argmin()}] is not finite: give an increasing number for each file")
+    if (np.diff(times) <= 0).any():
+        step = (np.diff(times) <= 0).argmax() + 1
+        raise ValueError(f"times[{step}] is not above times[{step - 1}]: give an increasing number for each file")
     for file in files:
         if not os.path.isfile(file):
             raise FileNotFoundError(f"there is no file {file}: write the steps before their series")

@@ -3,12 +3,15 @@
 import numpy as np
 
 from ._arrays import integers, reals
-from ._mesh import points
+from ._mesh import TYPES, points
 from ._skin import corners, dimension, skin, turned
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
 # Faces look the same way if the cosine between their normals is above this.
 SAME_WAY = 0.7
+
+# Areas are the same if their quotient is above this: the rest is rounding.
+SAME_AREA = 1 - 1e-6
 
 
 def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing):
@@ -23,7 +26,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     that tells for each node whether its faces of the skin belong, which they do if all of their
     nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
     turned to the outside; those of the slave that lie over nothing and look elsewhere than those over
-    the master are left out.
+    the master are left out of pairs and their normals. slave_faces, uncovered, beyond and penetration count all.
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
     has a volume. The rest: as for pair_surfaces.
     """
@@ -67,7 +70,8 @@ def check_sizes(sizes, slave, master):
 
 def _covered(coordinates, slave, master, pairing):
     """Pairs without the slave faces that lie over nothing and look elsewhere than those beside them that lie over the
-    master: they would bend the normals of the nodes at the rim. Counts and areas are those of all faces given."""
+    master: they would bend the normals of the nodes at the rim. Faces are counted, and asked for what has passed
+    through them, as all were given."""
     whole = pair_surfaces(coordinates, slave, master, **pairing)
     uncovered = set(whole.uncovered.tolist())
     if len(uncovered) in (0, len(slave)):
@@ -80,10 +84,14 @@ def _covered(coordinates, slave, master, pairing):
                 around[node] = around.get(node, 0) + normals[place]
     kept = [place for place, face in enumerate(slave) if place not in uncovered or any(
         node in around and normals[place] @ around[node] > SAME_WAY * np.linalg.norm(around[node]) for node in face)]
-    contact = pair_surfaces(coordinates, [slave[place] for place in kept], master, **pairing)
+    faces = [slave[place] for place in kept]
+    contact = pair_surfaces(coordinates, faces, master, **pairing)
+    if contact.pairs < whole.pairs or contact.report.covered_area < SAME_AREA * whole.report.covered_area:
+        # The default limits are those of the faces left, and smaller.
+        contact = pair_surfaces(coordinates, faces, master, **{**pairing, "search_distance": whole.report.search_distance})
     if len(contact.beyond):
         contact.summary = contact.summary.rpartition("; ")[0]
-    for name in ("uncovered", "beyond", "beyond_distances"):
+    for name in ("slave_faces", "uncovered", "beyond", "beyond_distances", "penetration"):
         setattr(contact, name, getattr(whole, name))
     for name in ("uncovered", "beyond", "slave_faces", "slave_area"):
         setattr(contact.report, name, getattr(whole.report, name))
@@ -182,7 +190,10 @@ class _Mesh:
         groups = getattr(self.mesh, "field_data", None) or {}
         numbers = (getattr(self.mesh, "cell_data", None) or {}).get("gmsh:physical")
         if wanted in groups and numbers is not None:
-            return [np.flatnonzero(np.asarray(of) == int(groups[wanted][0])) for of in numbers]
+            # Groups of different dimensions may have one number.
+            number, of_dimension = (int(part) for part in groups[wanted][:2])
+            return [np.flatnonzero(np.asarray(of) == number) if (dimension([kind]) or 1) == of_dimension else None
+                    for (kind, _), of in zip(self.blocks, numbers)]
         names = ", ".join(sorted([*sets, *groups])) or "none"
         raise ValueError(f"{argument}: {self.name} has no set {wanted!r}; sets: {names}")
 
@@ -196,7 +207,14 @@ def _goes_as(one, other):
 
 
 def _block(name, block):
-    kind, nodes = (block.type, block.data) if hasattr(block, "type") else block
+    try:
+        kind, nodes = (block.type, block.data) if hasattr(block, "type") else block
+    except (TypeError, ValueError):
+        kind = None
+    if not isinstance(kind, str):
+        raise ValueError(f"{name}: its cells have no type: give them as {{'hexahedron': array}}, with the type as in meshio")
+    if kind not in TYPES:
+        raise ValueError(f"{name}: there is no type of cells {kind!r}; types: {', '.join(TYPES)}")
     nodes = integers(f"{name}: cells of the type {kind}", nodes)
     if nodes.ndim != 2:
         raise ValueError(f"{name}: cells of the type {kind} have the shape {nodes.shape}: give the "

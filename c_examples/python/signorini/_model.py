@@ -3,7 +3,6 @@
 import contextlib
 import ctypes
 import warnings
-import weakref
 from collections import namedtuple
 
 import numpy as np
@@ -13,7 +12,7 @@ from ._arrays import (at, components, copied, fit, indices, integers, pairs_of, 
 from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
-from ._library import SignoriniError, check, library
+from ._library import Owner, SignoriniError, check, library
 from ._meshes import check_sizes, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
@@ -25,6 +24,7 @@ from ._text import path_bytes, remark_bytes
 from ._zones import Zones
 
 _UNTOUCHED = np.iinfo(np.int32).min
+_PASS_BY = 2.0  # where gaps are larger than those of the coordinates, surfaces pass by so many times the difference
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
 _NO_STIFFNESS = {
     ModelKind.STIFFNESS: "the rows of pairs ({dependent} of them) follow from those of other pairs or from supports",
@@ -73,7 +73,7 @@ class Model:
     """
 
     def __init__(self, make, *arguments, settings=None):
-        self._functions, self.contact, self._zones = library(), None, None
+        self._functions, self.contact, self._zones, self._equations = library(), None, None, None
         self._host = contextlib.nullcontext()
         handle = address()
         function = getattr(self._functions, make)
@@ -85,7 +85,7 @@ class Model:
             if status != 0:
                 raise SignoriniError(message, member(Status, status))
         self._handle, self._data = handle.value, sized(ModelData)
-        weakref.finalize(self, self._functions.model_free, self._handle)
+        self._owner = Owner(self._functions.model_free, self._handle)
         self._do("model_view", ctypes.byref(self._data))
         self.dim, self.pairs = self._data.dim, self._data.pairs
         self.host_size, self._n_fixed = self._data.host_size, self._data.fixed
@@ -233,7 +233,7 @@ class Model:
         rows = (zones or contact).with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
-        model.contact, model._zones = contact, zones
+        model.contact, model._zones, model._equations = contact, zones, getattr(rows, "equations", None)
         return model
 
     @classmethod
@@ -327,15 +327,16 @@ class Model:
 
     def _penetration(self, case, result):
         """What has passed through without a pair in a solution of a Case, of which it warns."""
-        gaps = self._zones.all("gaps") if self._zones else self.contact.gaps
-        # Larger gaps of the caller are of surfaces that the coordinates do not show.
-        if result.status != Status.SOLVED or np.any(case.gap > gaps):
+        if result.status != Status.SOLVED:
             return None
         u = np.zeros(self.host_size)
         self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
-        found = (self._zones or self.contact).penetration(u)
-        if found:
-            warnings.warn(found.sentence, stacklevel=3)
+        found = (self._zones or self.contact).penetration(self.extended(u))
+        # Larger gaps of the caller are of surfaces that the coordinates do not show, infinite ones of pairs that never touch.
+        larger = case.gap - (self._zones.all("_paired_gaps") if self._zones else self.contact._paired_gaps)
+        if not found or found.depth <= _PASS_BY * larger[np.isfinite(larger)].max(initial=0.0):
+            return None
+        warnings.warn(found.sentence, stacklevel=3)
         return found
 
     def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,
@@ -373,6 +374,12 @@ class Model:
         u = np.zeros(self.host_size)
         self._do("model_recover", 1, at(f), at(prescribed), at(d), at(u))
         return u
+
+    def extended(self, u):
+        """Displacements of the host, H, with those behind them that equations of from_surfaces give to degrees of freedom
+        without a row of K: as SurfacePairs.penetration and write take them."""
+        u = reals("u", u)
+        return self._equations.extended(u) if self._equations else u
 
     def recover_cases(self, d, f=_LOADS_OF_THE_CASE, prescribed=None):
         """Displacements of the host of many cases at once, (C, H): from d of (C, P, D) or (C, N).
@@ -412,7 +419,7 @@ class Model:
             gap = self._zones.all("gaps") if gap is None else self._zones.joined("gap", gap)
             slip0 = self._zones.joined("slip0", slip0)
             friction.values = self._zones.joined(friction.name, friction.values)
-            if self._zones.has_laws and friction.law == Law.FRICTIONLESS:
+            if self._zones.has_laws and not friction.is_given:
                 friction = Friction(None, None, Law.BY_PAIR, self._zones.friction)
         elif gap is None and self.contact is not None:
             gap = self.contact.gaps

@@ -60,7 +60,7 @@ def _line(result, axes):
 def _arcs(contact):
     """Length of the way along the lines of the slave to each of their nodes."""
     at, onward, ends = contact.coordinates, {}, set()
-    for face in contact.slave_faces:
+    for face in contact.drawn_faces:
         nodes = [int(node) for node in face]
         nodes = nodes if len(nodes) == 2 else [nodes[0], nodes[2], nodes[1]]
         onward.update(zip(nodes, nodes[1:]))
@@ -83,7 +83,7 @@ def _surface(result, axes):
 
     contact = result.contact
     fields = contact.fields(result)
-    faces = [face[:3 if len(face) in (3, 6) else 4] for face in contact.slave_faces]
+    faces = [face[:3 if len(face) in (3, 6) else 4] for face in contact.drawn_faces]
     pressure = np.array([fields.pressure[face].mean() for face in faces])
     drawn = Poly3DCollection([contact.coordinates[face] for face in faces], cmap="viridis",
                              edgecolor="0.5", linewidth=0.3, alpha=0.9)

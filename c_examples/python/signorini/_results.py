@@ -39,7 +39,8 @@ class Result(_Fields):
     escape: with status NO_EQUILIBRIUM the motion with which the bodies escape, (P, D), largest
     component 1, without the lift that a proof needs: draw this one; with status STALLED the motion
     along which bodies move away as supports are let go, if they do, which proves nothing; else None.
-    contact: the SurfacePairs of the model; of a model with several zones the pairs of all of them; or None.
+    contact: the SurfacePairs of the model; of a model with several zones an object with their names, whose pairs zone gives;
+    or None.
     penetration: with pairs from surfaces and status SOLVED the Penetration of what has passed through the other side
     without a pair, of which solve warns; None: nothing has.
 
@@ -63,7 +64,8 @@ class Result(_Fields):
 
     def _zones(self):
         if not hasattr(self.contact, "places"):
-            raise ValueError("the model has no zones with names: give Model.from_surfaces a dict of them")
+            raise ValueError("the model has no zones with names: give Model.from_surfaces a dict of them; a result that was "
+                             "unpickled or copied has none any more: keep zone(name) of each")
         return self.contact
 
     def plot(self, axes=None, *, at=None):

@@ -1,7 +1,6 @@
 """Contact pairs from surfaces, and what a solution means on them."""
 
 import ctypes
-import weakref
 from collections import namedtuple
 from types import SimpleNamespace
 
@@ -11,7 +10,7 @@ from ._arrays import at, components, copied, doubles, fit, indices, integers, pe
 from ._call import Call
 from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
-from ._library import SignoriniError, check, library
+from ._library import Owner, SignoriniError, check, library
 from ._mesh import Cells, points
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
@@ -124,7 +123,8 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     symmetry, normals, rims, fitted, slave_shape and master_shape are read for RigidFaces alone: a shape has
     normals of its own.
     """
-    slave, rigid = _Faces("slave", slave), _Rigid(obstacle)
+    coordinates = points(coordinates)
+    slave, rigid = _Faces("slave", slave), _Rigid(obstacle, coordinates.shape[1])
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
@@ -149,7 +149,8 @@ class SurfacePairs:
                  dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
-        self.slave_faces, self.coordinates = slave.lists, self._coordinates
+        self.slave_faces = self.drawn_faces = slave.lists
+        self.coordinates = self._coordinates
         settings = sized(
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=float(search_distance), dofs_per_node=dofs_per_node,
@@ -157,13 +158,14 @@ class SurfacePairs:
             axisymmetric=bool(axisymmetric), time_limit=float(time_limit),
         )
         *shapes, settings.fitted, settings.close_within, settings.clearance = gaps
-        shapes = [shape and _shape(shape) for shape in shapes]
+        shapes = [shape and _shape(shape, self.dim) for shape in shapes]
         settings.slave_shape, settings.master_shape = (
             shape and ctypes.addressof(shape) for shape in shapes)
         call = Call(self._functions, {"progress": progress})
         settings.progress = call.settings.progress
         axes, places = _planes(symmetry)
-        self.symmetry_axes = axes.tolist()
+        # Nodes on the axis of bodies of revolution stand as on a plane of symmetry.
+        self.symmetry_axes = axes.tolist() + [0] * bool(axisymmetric)
         settings.symmetry_planes = len(axes)
         settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
         # Entries of a displacement vector that has all nodes.
@@ -183,7 +185,7 @@ class SurfacePairs:
         if status != 0:
             raise SignoriniError(message, member(Status, status))
         self._handle = handle.value
-        weakref.finalize(self, self._functions.surface_free, self._handle)
+        self._owner = Owner(self._functions.surface_free, self._handle)
         self._do("surface_view", ctypes.byref(data))
         self.report = SimpleNamespace(**{name.removeprefix("n_"): getattr(data, name)
                                          for name, kind in data._fields_ if kind in (i32, i64, real)})
@@ -202,6 +204,7 @@ class SurfacePairs:
         self.gaps, self.areas = (array(name, (pairs,)) for name in ("gaps", "areas"))
         self.normals, self.tangents, self.points = (
             array(name, (pairs, dim)) for name in ("normals", "tangents", "points"))
+        self._paired_gaps = self.gaps.copy()  # gaps are the caller's to change
         self.nodes = array("nodes", (pairs,), i64)
         self.unpaired = array("unpaired", (data.n_unpaired,), i64)
         self.folded = array("folded", (data.n_folded, 2), i64)
@@ -232,7 +235,7 @@ class SurfacePairs:
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.
 
-        result: what Model.solve returned.  slip0: of that step.  gap: if it was not gaps.
+        result: what Model.solve returned.  slip0: of that step.  gap: that of the step; None: gaps.
         """
         count, dim = self._coordinates.shape
         found = Fields(np.zeros(count), np.zeros((count, dim)), np.zeros(count),
@@ -288,7 +291,7 @@ class SurfacePairs:
         u = np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
         if u.size < self._least:
             raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
-                             f"freedom, at least {self._least}")
+                             f"freedom, at least {self._least}; Model.extended adds those that equations give")
         return u
 
     def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
@@ -306,7 +309,7 @@ class SurfacePairs:
     def _results(self, result, slip0, gap):
         pairs, dim = self.pairs, self.dim
         return (
-            per_pair("gap", gap, pairs, dim, optional=True),
+            per_pair("gap", self.gaps if gap is None else gap, pairs, dim),
             components("slip0", slip0, pairs, dim, tangential=True, scalar=True, optional=True),
             components("d", result.d, pairs, dim), components("F", result.F, pairs, dim),
             np.require(result.state, np.int32, ["C", "ALIGNED"]),
@@ -333,7 +336,7 @@ class _Faces:
 class _Rigid:
     """An obstacle; structure: signorini_obstacle."""
 
-    def __init__(self, obstacle):
+    def __init__(self, obstacle, dim):
         if isinstance(obstacle, RigidFaces):
             self.coordinates = points(obstacle.coordinates).copy()
             self.faces = _Faces("faces", obstacle.faces)
@@ -342,13 +345,16 @@ class _Rigid:
                 coordinates=at(self.coordinates),
                 faces=ctypes.cast(ctypes.byref(self.faces.structure), address))
         else:
-            self.structure = _shape(obstacle)
+            self.structure = _shape(obstacle, dim)
 
 
-def _shape(obstacle):
-    """A shape as signorini_obstacle."""
+def _shape(obstacle, dim):
+    """A shape in so many dimensions as signorini_obstacle."""
     def three(vector):
         vector = [float(x) for x in vector]
+        if len(vector) < dim:
+            raise ValueError(f"{obstacle!r} has a place or a direction of {len(vector)} numbers: give {dim}, as the nodes "
+                             "have coordinates")
         return (real * 3)(*(vector + [0.0])[:3])
 
     if isinstance(obstacle, Plane):

@@ -1,7 +1,6 @@
 """Contact zones by name, in one model."""
 
 import ctypes
-import weakref
 from collections import namedtuple
 
 import numpy as np
@@ -9,7 +8,7 @@ import numpy as np
 from ._arrays import at, copied, reals
 from ._constants import State
 from ._law import Friction
-from ._library import check, library
+from ._library import Owner, check, library
 from ._structures import ContactZone, SurfaceData, address, sized
 from ._surfaces import SurfacePairs
 
@@ -53,12 +52,17 @@ class Zones:
         zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
         self.contacts = {name: zone.contact for name, zone in zones.items()}
         for name, contact in self.contacts.items():
+            if not isinstance(name, str):
+                raise TypeError(f"zones names a zone {name!r}: give a text as its name")
             if not isinstance(contact, SurfacePairs):
                 raise TypeError(f"zones[{name!r}] is a {type(contact).__name__}: give what pair_surfaces or "
                                 f"pair_obstacle returns")
         self._join(zones)
         ends = np.cumsum([0, *(contact.pairs for contact in self.contacts.values())])
         self.places = {name: slice(begin, end) for name, begin, end in zip(self.contacts, ends, ends[1:])}
+
+    def __getattr__(self, name):
+        raise AttributeError(f"the pairs of several zones have no {name}: ask those of one, result.zone(name).contact")
 
     def all(self, name):
         """An array of all zones."""
@@ -75,7 +79,7 @@ class Zones:
             sized(ContactZone, law=zone.friction.law, contact=zone.contact._handle, name=name.encode(), friction=at(own))
             for (name, zone), own in zip(zones.items(), numbers)])
         check(functions, functions.surface_join(len(zones), given, ctypes.byref(handle)))
-        weakref.finalize(self, functions.surface_free, handle.value)
+        self._owner = Owner(functions.surface_free, handle.value)
         check(functions, functions.surface_view(handle, ctypes.byref(data)))
         self.summary, self.structure = data.summary.decode(), data.rows
         found = copied(data.friction, (data.pairs, 4))
@@ -90,6 +94,10 @@ class Zones:
         for name, contact in self.contacts.items():
             part = reals(f"{what}[{name!r}]", values[name])
             own = part.shape[:1] == (contact.pairs,)
+            if part.ndim > 1 and not own:
+                raise ValueError(f"{what}[{name!r}] has the shape {part.shape}: give the numbers of one pair, or of each of "
+                                 f"its {contact.pairs} pairs; for cases that differ an array for the pairs of all zones, "
+                                 "one zone after the other")
             parts.append(part if own else np.broadcast_to(part, (contact.pairs, *part.shape)))
         if len({part.shape[1:] for part in parts}) > 1:
             shapes = ", ".join(f"{name!r} {part.shape}" for name, part in zip(self.contacts, parts))
