@@ -90,6 +90,31 @@ class Rows(unittest.TestCase):
             model = signorini.Model.from_surfaces(K, pairs, equations=equations)
             np.testing.assert_array_equal(model.stiffness, plain.stiffness)
 
+    def test_displacements_of_what_has_no_row(self):
+        """A line on springs of 1 above a lower one whose nodes have no rows in K, and are held or follow each other."""
+        places = np.array([[0, 0.1], [1, 0.1], [0, 0], [1, 0]])
+        contact = signorini.pair_surfaces(places, [[0, 1]], [[3, 2]])
+        equations = [(4, [6], [2.0]), (6, [0], [0.5]), (5, [], []), (7, [5], [1.0])]
+        for pairs in (contact, {"zone": contact}):
+            model = signorini.Model.from_surfaces(sparse(np.eye(4)), pairs, equations=equations)
+            load = [0.3, -0.4, 0.3, -0.4]
+            result = model.solve(load, mu=0.0)
+            self.assertEqual(result.status, signorini.Status.SOLVED)
+            self.assertIsNone(result.penetration)
+            u = model.recover(result.d, load)
+            np.testing.assert_allclose(u, [0.3, -0.1, 0.3, -0.1], atol=1e-9)
+            np.testing.assert_allclose(model.extended(u), [*u, 0.3, 0, 0.15, 0], atol=1e-9)
+        with self.assertRaisesRegex(ValueError, "at least 8; Model.extended adds"):
+            contact.penetration(u)
+        self.assertIsNone(contact.penetration(model.extended(u)))
+
+    def test_directions_of_any_length_and_turns_that_are_none(self):
+        np.testing.assert_allclose(signorini.section_equations([[0, 1, 2]], [[3, 4, 5]], 6, [0, 0, 2])[2][2], [1, -1])
+        with self.assertRaisesRegex(ValueError, "axis is .*: give the direction across the section"):
+            signorini.section_equations([[0, 1]], [[3, 4]], 6, [0, 0])
+        with self.assertRaisesRegex(ValueError, "turn of node 1 is no rotation"):
+            signorini.turned_equations([[0, 1], [2, 3]], [[4, 5], [6, 7]], [np.eye(2), np.ones((2, 2))])
+
     def test_mistakes(self):
         def refused(kind, part, **changed):
             given = {"slaves": [[2, 3]], "normals": [0, -1]}
@@ -116,7 +141,7 @@ class Decks(unittest.TestCase):
             return signorini.read_equations(path, **more)
 
     def test_cards(self):
-        deck = ("*NODE\n1,0.,0.,0.\n*Equation\n** a comment\n3\n2,1,2.0,5,1,-1,\n5,2,4.d0\n1\n3,2,1.\n"
+        deck = ("*NODE\n1,0.,0.,0.\n*Equation\n ** a comment\n3\n2,1,2.0,5,1,-1,\n5,2,4.d0\n1\n3,2,1.\n"
                 "*BOUNDARY\n3,1\n*EQUATION\n2\n7,3,1.,1,3,-1.\n")
         self.assertEqual(self.read(deck), [(3, [12, 13], [0.5, -2.0]), (7, [], []), (20, [2], [1.0])])
         found = self.read(deck, number=lambda node, direction: 10 * node + direction)
@@ -166,6 +191,9 @@ class Decks(unittest.TestCase):
                            ("*EQUATION\n2\n1,1,1.\n", "1 terms of the last equation are missing"),
                            ("*EQUATION\n1\n1,1,1.,2,1,1.\n", "line 3: the equation has more terms"),
                            ("*EQUATION\n1\n1,1,0.\n", "line 3: the coefficient of the first term is 0"),
+                           ("*NODE\n1,0,0\n*INCLUDE, INPUT=more.inc\n", "line 3: .*INPUT=more.inc: the file is not read"),
+                           ("*EQUATION\n2\n1,1,1.,2,4,1.\n", "line 3: .*: node 2 has no direction 4"),
+                           ("*EQUATION\n2\n1,1,1.,2,0,1.\n", "line 3: .*: node 2 has no direction 0"),
                            ("*MPC, MODE=NODE\n", "line 1: .* a card with MODE=NODE is not read"),
                            ("*EQUATION, REMOVE=ALL\n", "line 1: .* a card with REMOVE=ALL is not read")):
             with self.assertRaisesRegex(ValueError, part):

@@ -135,6 +135,59 @@ class Pairs(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 signorini.pair_meshes(self.upper, floor, **arguments)
 
+    def test_the_reach_is_that_of_the_whole_skins(self):
+        """A column of one cell, 6 high, on a block: half the diagonal of its box is 3.1, its largest face 6.1 wide; of the
+        face that lies over the block they are 0.7 and 1.4."""
+        column, block = CUBE * [1, 1, 6], CUBE * [40, 40, 10] - [20, 20, 10]
+        cell = {"hexahedron": [range(8)]}
+        for gap in (0.5, 2.0, -2.0):
+            contact = signorini.pair_meshes((column + [0, 0, gap], cell), (block, cell))
+            np.testing.assert_allclose(contact.gaps, [gap] * 4, atol=1e-12)
+            np.testing.assert_allclose(contact.normals, [[0, 0, -1]] * 4, atol=1e-12)
+            self.assertAlmostEqual(contact.areas.sum(), 1)
+
+    def test_faces_count_as_given_and_all_are_asked_for_what_passes_through(self):
+        """Two cubes as one mesh, of which one stands on a plate and the other 0.2 above it, beyond the search distance, and
+        then falls by 0.9."""
+        cubes, cells = np.vstack([CUBE, CUBE + [3, 0, 0.2]]), {"hexahedron": [range(8), range(8, 16)]}
+        plate = CUBE * [8, 8, 1] - [2, 2, 1], {"hexahedron": [range(8)]}
+        contact = signorini.pair_meshes((cubes, cells), plate, search_distance=0.1)
+        self.assertEqual((contact.pairs, len(contact.slave_faces), len(contact.uncovered)), (4, 12, 11))
+        sole = {8, 9, 10, 11}
+        self.assertEqual([set(contact.slave_faces[face]) for face in contact.beyond], [sole])
+        self.assertIn(f"face {contact.beyond[0]}, at 0.2", contact.summary)
+        u = np.zeros((24, 3))
+        self.assertIsNone(contact.penetration(u))
+        u[8:16, 2] = -0.9
+        found = contact.penetration(u)
+        self.assertAlmostEqual(found.depth, 0.7, places=12)
+        self.assertEqual((found.points, set(contact.slave_faces[found.face])), (5, sole))
+
+    def test_groups_of_two_dimensions_may_have_one_number(self):
+        lower, sole = self.lower, self.blocks.slave - self.below
+        mesh = SimpleNamespace(
+            points=self.upper[0], cells=[("quad", sole), ("hexahedron", self.upper[1]["hexahedron"])],
+            field_data={"sole": np.array([1, 2]), "body": np.array([1, 3])},
+            cell_data={"gmsh:physical": [np.ones(len(sole), int), np.ones(len(self.upper[1]["hexahedron"]), int)]})
+        for name, faces in (("sole", len(sole)), ("body", 4 * 4 * 2 + 4 * 4 * 2)):
+            contact = signorini.pair_meshes(mesh, lower, slave_faces=name)
+            self.assertEqual(contact.report.slave_faces, faces)
+            self.same(contact)
+
+    def test_cells_and_shapes_that_do_not_fit_are_named(self):
+        at, bricks = self.upper[0], self.upper[1]["hexahedron"]
+        for cells, words in (({"hexahedron": bricks, "wedge18": [range(18)]}, "slave: there is no type of cells 'wedge18'; "
+                              "types: .*wedge15"),
+                             ({"hexa": bricks}, "there is no type of cells 'hexa'; types: .* hexahedron,"),
+                             (bricks, "slave: its cells have no type: give them as {'hexahedron': array}")):
+            with self.assertRaisesRegex(ValueError, words):
+                signorini.pair_meshes((at, cells), self.lower)
+        floor = signorini.Plane(at.min(axis=0), [0, 0, -1])
+        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the slave: node .*: give slave_faces"):
+            signorini.pair_meshes(self.upper, self.lower, slave_shape=floor)
+        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the master: node .*: give master_faces"):
+            signorini.pair_meshes(self.upper, self.lower, master_shape=floor)
+
     def test_a_plane_mesh_with_three_coordinates(self):
         square = np.column_stack([CUBE[:4, :2], np.full(4, 3.0)])
         below = square - [0.3, 1.1, 0]

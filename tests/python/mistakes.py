@@ -157,6 +157,7 @@ class Mistakes(unittest.TestCase):
         self.assertEqual(warnings_of(left, symmetry=[(0, 0.0)]), [])
         self.assertEqual(warnings_of(np.concatenate([left, left + 1])), [])  # clamped
         self.assertEqual(warnings_of([8]), [])  # the slave alone
+        self.assertEqual(warnings_of(left, axisymmetric=True), [])  # the axis of revolution
 
 
 if __name__ == "__main__":

@@ -4,11 +4,14 @@
 """
 
 import base64
+import copy
+import gc
 import os
 import re
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -57,6 +60,29 @@ class Pairs(unittest.TestCase):
         with self.assertRaisesRegex(signorini.SignoriniError, "within is -1, it must not be negative"):
             contact.adjusted(-1)
 
+    def test_copies_hold_the_pairs_too(self):
+        functions = signorini._library.library()
+        with mock.patch.object(functions, "surface_free", wraps=functions.surface_free) as free:
+            contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
+            again, rows = copy.copy(contact), contact.rows
+            del contact
+            gc.collect()
+            free.assert_not_called()
+            np.testing.assert_array_equal(again.rows[0][1], rows[0][1])
+            del again
+            gc.collect()
+            free.assert_called_once()
+
+    def test_changed_gaps_are_those_of_fields(self):
+        """A line on springs is pressed down by more than its gap, with a clearance: what is closed has none left."""
+        contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
+        contact.gaps += 0.1
+        model = signorini.Model.from_surfaces((np.ones(10), np.arange(10), np.arange(11)), contact, fixed=range(4, 10))
+        result = model.solve([0, -0.4, 0, -0.4] + [0] * 6, mu=0.0)
+        np.testing.assert_allclose(result.d[:, 0], 0.2, atol=1e-12)
+        np.testing.assert_allclose(contact.fields(result).clearance[:2], 0, atol=1e-12)
+        np.testing.assert_allclose(contact.fields(result, gap=0.3).clearance[:2], 0.1, atol=1e-12)
+
     def test_by_hand(self):
         contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
         self.assertEqual((contact.dim, contact.pairs), (2, 2))
@@ -84,6 +110,8 @@ class Pairs(unittest.TestCase):
             slave = SLAVE if gap == 0.3 else [[1, 0]]
             contact = signorini.pair_obstacle(below, slave, obstacle)
             np.testing.assert_allclose(contact.gaps, gap)  # (0.5, 1.2) is 1.3 from the centre
+        with self.assertRaisesRegex(ValueError, "Plane.* has a place or a direction of 2 numbers: give 3"):
+            signorini.pair_obstacle(np.eye(3), [[0, 1, 2]], signorini.Plane([0, 0], [0, 1]))
         with self.assertRaisesRegex(TypeError, "give a Plane, Sphere, Cylinder, Cone"):
             signorini.pair_obstacle(NODES, SLAVE, "floor")
 

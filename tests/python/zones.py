@@ -1,7 +1,8 @@
 """Several contact zones in one model: three lines above each other, each node on a spring, in closed form.
 
 Springs of 1, 2 and 4, gaps of 0.2 and 0.1, loads of 4 on the upper lines, downwards: the gaps close, and with the
-pressures p and q of a node  (4 - p) / 1 - (4 + p - q) / 2 = 0.2  and  (4 + p - q) / 2 - q / 4 = 0.1,  so p = 3.2, q = 4.
+pressures p and q of a node  (4 - p) / 1 - (4 + p - q) / 2 = 0.2  and  (4 + p - q) / 2 - q / 4 = 0.1,
+so p = 92 / 35, q = 30 / 7.
 """
 
 import os
@@ -16,6 +17,8 @@ import numpy as np
 import common  # noqa: F401 (the package's place)
 import signorini
 from signorini import State, Status
+
+from surfaces import arrays_of
 
 LINES = np.array([[0, 0.3], [1, 0.3], [0, 0.1], [1, 0.1], [0, 0], [1, 0]])
 
@@ -63,6 +66,14 @@ class Zones(unittest.TestCase):
             self.assertIsNone(model.solve(self.load, mu=0.3, penetration=False).penetration)
         pickled = pickle.loads(pickle.dumps(result))
         self.assertEqual(pickled.penetration.sentence, result.penetration.sentence)
+        # One pair that never touches, and rounding, say nothing of the others; a clearance of 4 lets all pass by.
+        gaps = contacts["below"].gaps
+        for below in ([gaps[0], np.inf], gaps + 1e-12):
+            with self.assertWarnsRegex(UserWarning, "have passed"):
+                self.assertIsNotNone(model.solve(self.load, {"above": [], "below": below}, 0.3).penetration)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertIsNone(model.solve(self.load, {"above": [], "below": gaps + 4.0}, 0.3).penetration)
 
     def test_numbers_of_each_zone(self):
         """A push that friction holds in one zone slides in the other."""
@@ -77,6 +88,20 @@ class Zones(unittest.TestCase):
         alone = self.model.solve(self.load, {"above": 9.0, "below": 9.0}, friction={"above": [0.1, 0, 0], "below": 3 * [0]},
                                  law="cohesive")
         np.testing.assert_allclose(alone.F, 0, atol=1e-9)
+
+    def test_one_file_has_all_zones(self):
+        """The lowest line is pressed by the middle one alone, the upper one presses alone: p and q of the closed form."""
+        result, p, q = self.model.solve(self.load, mu=0.3), 92 / 35, 30 / 7
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "zones.vtu")
+            u = self.model.recover(result.d, self.load)
+            for gap in None, {"above": 0.2, "below": self.contacts["below"].gaps}, [0.2, 0.2, 0.1, 0.1]:
+                result.contact.write(path, {"line": [[0, 1], [2, 3], [4, 5]]}, result, u, slip0=0.0, gap=gap)
+                found = arrays_of(path)
+                np.testing.assert_allclose(found["pressure"][[0, 1, 4, 5]], 2 * np.array([p, p, q, q]), atol=1e-8)
+                down = [4 - p, 4 - p, (4 + p - q) / 2, (4 + p - q) / 2, q / 4, q / 4]
+                np.testing.assert_allclose(-found["displacement"][:, 1], down, atol=1e-8)
+                np.testing.assert_allclose(found["clearance"], 0, atol=1e-8)
 
     def test_each_zone_has_its_law(self):
         """A tie above and given thresholds below, pushed aside: the tie holds, the threshold is reached."""
@@ -97,6 +122,7 @@ class Zones(unittest.TestCase):
         np.testing.assert_allclose(u[[0, 4, 8]], [(6 - 0.125) / 3, (6 - 0.125) / 3, 0.125 / 4], atol=1e-9)
         whole = model.solve(self.load, mu=0.0)
         self.assertTrue((whole.state == State.SLIP).all(), "a law of the case stands for those of the zones")
+        np.testing.assert_array_equal(model.solve(self.load, law="frictionless").F[:, 1], 0)
 
     def test_names_are_told(self):
         with self.assertRaisesRegex(KeyError, "mu names the zone 'bolt', there is none: the zones are 'above', 'below'"):
@@ -111,12 +137,20 @@ class Zones(unittest.TestCase):
             signorini.Model.from_surfaces(np.eye(2), {"bolt": signorini.Zone(self.contacts["above"], [0.1, 0.2])})
         with self.assertRaisesRegex(signorini.SignoriniError, "slave face 0 of zone 'two' is slave face 0 of zone 'one'"):
             signorini.Model.from_surfaces(np.eye(2), dict.fromkeys(("one", "two"), self.contacts["above"]))
+        with self.assertRaisesRegex(TypeError, "zones names a zone 1: give a text"):
+            signorini.Model.from_surfaces(np.eye(2), {1: self.contacts["above"]})
+        with self.assertRaisesRegex(ValueError, r"gap\['above'\] has the shape \(3, 2\): .* of its 2 pairs; for cases"):
+            self.model.solve(np.array([self.load] * 3), {"above": np.zeros((3, 2)), "below": 0.0}, 0.3)
         alone = signorini.solve(common.K, common.LOAD, 0.0, 0.3)
         with self.assertRaisesRegex(ValueError, "the model has no zones with names"):
             alone.zone("above")
         result = self.model.solve(self.load)
         with self.assertRaisesRegex(KeyError, "zone names the zone 'bolt', there is none"):
             result.zone("bolt")
+        with self.assertRaisesRegex(AttributeError, r"several zones have no areas: ask those of one, result.zone\(name\)"):
+            print(result.contact.areas)
+        with self.assertRaisesRegex(ValueError, "a result that was unpickled or copied has none any more"):
+            pickle.loads(pickle.dumps(result)).table()
 
     def test_a_result_can_be_pickled(self):
         part = self.model.solve(self.load, mu=0.3).zone("below")
@@ -136,7 +170,14 @@ class Zones(unittest.TestCase):
                 result = self.model.solve((1 + step) * self.load, mu=0.3).zone("above")
                 self.contacts["above"].write(name, {"line": [[0, 1], [2, 3], [4, 5]]}, result)
             with self.assertRaisesRegex(ValueError, "give an increasing number for each of the 3 files"):
-                signorini.write_series(series, names, [0.0, 1.0, 1.0])
+                signorini.write_series(series, names, [0.0, 1.0])
+            for last in (1.0, 0.5):
+                with self.assertRaisesRegex(ValueError, r"times\[2\] is not above times\[1\]: give an increasing number"):
+                    signorini.write_series(series, names, [0.0, 1.0, last])
+            with self.assertRaisesRegex(ValueError, r"times\[1\] is not finite"):
+                signorini.write_series(series, names, [0.0, np.nan, 1.0])
+            with self.assertRaisesRegex(TypeError, "files is '.*': give a list of paths"):
+                signorini.write_series(series, names[0])
             signorini.write_series(series, names, [0.0, 0.5, 2.0])
             steps = ElementTree.parse(series).getroot().findall("Collection/DataSet")
             self.assertEqual([(float(step.get("timestep")), step.get("file")) for step in steps],

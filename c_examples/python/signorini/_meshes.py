@@ -3,6 +3,7 @@
 import numpy as np
 
 from ._arrays import integers, reals
+from ._library import SignoriniError
 from ._mesh import TYPES, points
 from ._skin import corners, dimension, skin, turned
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
@@ -25,8 +26,9 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
     that tells for each node whether its faces of the skin belong, which they do if all of their
     nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
-    turned to the outside; those of the slave that lie over nothing and look elsewhere than those over
-    the master are left out of pairs and their normals. slave_faces, uncovered, beyond and penetration count all.
+    turned to the outside; those of the slave that lie over nothing and look elsewhere than those beside
+    them over the master have no say in the normals of pairs. slave_faces, uncovered and beyond count all faces, and
+    penetration asks all.
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
     has a volume. The rest: as for pair_surfaces.
     """
@@ -49,7 +51,14 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
                          f"{second.coordinates.shape[1]}: give two meshes of one dimension")
     before = len(first.coordinates)
     others = [[before + node for node in face] for face in second.faces("master_faces", master_faces)]
-    return _covered(np.vstack([first.coordinates, second.coordinates]), faces, others, pairing)
+    try:
+        return _covered(np.vstack([first.coordinates, second.coordinates]), faces, others, pairing)
+    except SignoriniError as error:
+        for side, given in (("slave", slave_faces), ("master", master_faces)):
+            if given is None and f"shape of the {side}" in str(error):
+                raise SignoriniError(f"{error}: give {side}_faces, those on the shape, in the place of the whole skin",
+                                     error.status) from None
+        raise
 
 
 def check_sizes(sizes, slave, master):

@@ -218,7 +218,7 @@ class Model:
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
         Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
         in one zone and master in another. A Zone in the place of SurfacePairs has a law of its own, which a case
-        without a law of its own takes. gap, mu, g, friction and slip0 of a case may then be a dict too, with
+        without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict too, with
         the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
         zones = Zones(contact) if isinstance(contact, dict) else None
@@ -293,7 +293,8 @@ class Model:
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.
         penetration: with pairs from surfaces, look if parts without a pair have passed through the other side: a
-        warning, and Result.penetration.
+        warning, and Result.penetration. Where gap is larger than that of the pairing by some length, less than twice
+        that is none.
         """
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None

@@ -300,11 +300,7 @@ class SurfacePairs:
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
         returns them.
         """
-        mesh = Cells(self._coordinates, cells)
-        gap, slip0, d, F, state = self._results(result, slip0, gap)
-        u = None if u is None else self._displacements(u)
-        mesh.write(path, u, [sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d),
-                                   F=at(F), state=at(state))])
+        write_zones(path, cells, [(self, result, slip0, gap)], u)
 
     def _results(self, result, slip0, gap):
         pairs, dim = self.pairs, self.dim
@@ -317,6 +313,16 @@ class SurfacePairs:
 
     def _do(self, function, *arguments):
         check(self._functions, getattr(self._functions, function)(self._handle, *arguments))
+
+
+def write_zones(path, cells, zones, u):
+    """Writes a mesh with the fields of zones: SurfacePairs, the Result, slip0 and gap of each; see SurfacePairs.write."""
+    first = zones[0][0]
+    mesh, u = Cells(first.coordinates, cells), None if u is None else first._displacements(u)
+    arrays = [contact._results(*of) for contact, *of in zones]
+    mesh.write(path, u, [
+        sized(Zone, contact=contact._handle, gap=at(gap), slip0=at(slip0), d=at(d), F=at(F), state=at(state))
+        for (contact, *_), (gap, slip0, d, F, state) in zip(zones, arrays)])
 
 
 class _Faces:

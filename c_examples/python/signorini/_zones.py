@@ -10,7 +10,7 @@ from ._constants import State
 from ._law import Friction
 from ._library import Owner, check, library
 from ._structures import ContactZone, SurfaceData, address, sized
-from ._surfaces import SurfacePairs
+from ._surfaces import SurfacePairs, write_zones
 
 ZoneSums = namedtuple("ZoneSums", "zone pairs open slip stick pressed_area force")
 ZoneSums.__doc__ = """A row of Result.table().
@@ -42,7 +42,7 @@ class Zone:
 
 
 class Zones:
-    """Pairs of several zones, one zone after the other."""
+    """Pairs of several zones, one zone after the other; contacts: the SurfacePairs by name."""
 
     def __init__(self, contacts):
         if not contacts:
@@ -121,6 +121,18 @@ class Zones:
         parts = {field: None if getattr(result, field) is None else getattr(result, field)[place] for field in cut}
         second = None if result.second is None else self.of(result.second, name)
         return result._replace(contact=self.contacts[name], second=second, **parts)
+
+    def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
+        """Writes the mesh of the zones with the fields of all to one file; see SurfacePairs.write.
+
+        slip0, gap: those of the step, in arrays for all pairs or dicts by the names of zones.
+        """
+        def by_zone(what, values):
+            values = self.joined(what, values)
+            return [values[place] if np.ndim(values) else values for place in self.places.values()]
+
+        parts = [self.of(result, name) for name in self.contacts]
+        write_zones(path, cells, list(zip(self.contacts.values(), parts, by_zone("slip0", slip0), by_zone("gap", gap))), u)
 
     def penetration(self, u):
         """The deepest Penetration of all zones, or None."""
