@@ -64,6 +64,18 @@ class Plots(unittest.TestCase):
         self.save(axes, "result_3d")
         self.save(result._replace(contact=None).plot(at=contact.points), "result_3d_places")
 
+    def test_of_two_skins_the_faces_over_the_master(self):
+        blocks = brick_mesh.two_blocks(wide=3, deep=1, narrow=2, high=1)
+        low = int(blocks.bricks[:9].max()) + 1
+        meshes = [(at, {"hexahedron": bricks}) for at, bricks in
+                  ((blocks.at[low:], blocks.bricks[9:] - low), (blocks.at[:low], blocks.bricks[:9]))]
+        contact = signorini.pair_meshes(*meshes)
+        F = np.tile([-1.0, 0, 0], (contact.pairs, 1))
+        result = signorini.Result(0 * F, F, np.full(len(F), signorini.State.STICK), 0, "", *[None] * 3)._replace(contact=contact)
+        axes = result.plot()
+        self.assertEqual(len(axes.collections[0].get_array()), len(blocks.slave))
+        matplotlib.pyplot.close(axes.figure)
+
     def test_without_a_surface(self):
         result = signorini.solve(K, LOAD, 0, 0.3)
         axes = result.plot()

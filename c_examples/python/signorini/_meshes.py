@@ -223,7 +223,8 @@ def _block(name, block):
     if not isinstance(kind, str):
         raise ValueError(f"{name}: its cells have no type: give them as {{'hexahedron': array}}, with the type as in meshio")
     if kind not in TYPES:
-        raise ValueError(f"{name}: there is no type of cells {kind!r}; types: {', '.join(TYPES)}")
+        raise ValueError(f"{name}: there is no type of cells {kind!r}; types: {', '.join(TYPES)}; of others "
+                         "give faces to pair_surfaces")
     nodes = integers(f"{name}: cells of the type {kind}", nodes)
     if nodes.ndim != 2:
         raise ValueError(f"{name}: cells of the type {kind} have the shape {nodes.shape}: give the "

@@ -136,6 +136,7 @@ class SurfacePairs:
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
+    gaps are yours to change: solve, fields and write take them where they are given none.
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
     whose pairs share its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
