@@ -199,7 +199,7 @@ class _Mesh:
         groups = getattr(self.mesh, "field_data", None) or {}
         numbers = (getattr(self.mesh, "cell_data", None) or {}).get("gmsh:physical")
         if wanted in groups and numbers is not None:
-            # Groups of different dimensions may have one number.
+            # Groups of different dimensions may have one number; dimension tells 0 of lines.
             number, of_dimension = (int(part) for part in groups[wanted][:2])
             return [np.flatnonzero(np.asarray(of) == number) if (dimension([kind]) or 1) == of_dimension else None
                     for (kind, _), of in zip(self.blocks, numbers)]

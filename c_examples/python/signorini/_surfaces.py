@@ -166,7 +166,7 @@ class SurfacePairs:
         settings.progress = call.settings.progress
         axes, places = _planes(symmetry)
         # Nodes on the axis of bodies of revolution stand as on a plane of symmetry.
-        self.symmetry_axes = axes.tolist() + [0] * bool(axisymmetric)
+        self.symmetry_axes = axes.tolist() + ([0] if axisymmetric else [])
         settings.symmetry_planes = len(axes)
         settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
         # Entries of a displacement vector that has all nodes.
