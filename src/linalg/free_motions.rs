@@ -65,26 +65,40 @@ struct Motion {
     scaled: Vec<f64>,
 }
 
-/// `true` if a component keeps so little of its unit that a motion may be free. A look at the diagonal costs
-/// nothing beside a factorisation. Free motions that move many components leave no such trace; where the
-/// matrix is factorised, their pivots are negligible.
-pub fn is_suspicious(units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
-    units.iter().enumerate().any(|(i, unit)| diagonal(i) <= SUSPICIOUS_PIVOT * unit)
+/// Rounding leaves free motions energies of up to some hundred times the rounding of the weakest pivot (measured); this many
+/// times it are above all of them.
+const GROWTH: f64 = 1e4;
+
+/// A diagonal entry that keeps less of its unit is small beside the rounding of the condensation.
+const SOFT: f64 = 0.05;
+
+/// The energies beside units up to which rounding may pass for stiffness, where the weakest pivot of the eliminated components
+/// keeps such a part of its diagonal: a stiff body that soft ones alone hold has weak pivots.
+pub fn suspicious_pivot(weakest: f64) -> f64 {
+    (GROWTH * f64::EPSILON / weakest).clamp(NEGLIGIBLE, SOFT)
+}
+
+/// `true` if the rounding of free motions is not negligible beside the matrix, so that it may pass for stiffness: the weakest
+/// pivot is small, or a component keeps little of its unit. A look at them costs nothing beside a factorisation. Other free
+/// motions have negligible pivots, which are found where the matrix is factorised.
+pub fn is_suspicious(weakest: f64, units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
+    suspicious_pivot(weakest) > NEGLIGIBLE
+        || units.iter().enumerate().any(|(i, unit)| diagonal(i) <= SOFT * unit)
 }
 
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
-/// `units` are positive, of the size of the diagonal before anything was eliminated. Returns whether any
-/// motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
+/// `units` are positive, of the size of the diagonal before anything was eliminated; motions with pivots up to `least` beside
+/// them are looked at. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
 pub fn settle(
     matrix: &mut [f64],
-    units: &[f64],
+    (units, least): (&[f64], f64),
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
 ) -> Result<bool, StiffnessDefect> {
-    let size = units.len();
+    let (size, least) = (units.len(), least.max(SUSPICIOUS_PIVOT));
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
-    let Some(factor) = PivotedCholesky::within(size, SUSPICIOUS_PIVOT, entry, goes_on) else {
+    let Some(factor) = PivotedCholesky::within(size, least, entry, goes_on) else {
         return Ok(false);
     };
     if factor.dependent.is_empty() {

@@ -46,7 +46,7 @@ impl PivotedCholesky {
         if has_ended {
             return None;
         }
-        if regular && (0..n).all(|i| lower[(i, i)].powi(2) > SUSPICIOUS_PIVOT) {
+        if regular && (0..n).all(|i| lower[(i, i)].powi(2) > least.max(SUSPICIOUS_PIVOT)) {
             return Some(PivotedCholesky { lower, independent: rows, dependent });
         }
         drop(lower);

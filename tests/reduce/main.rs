@@ -21,5 +21,6 @@ mod sparse_messages;
 mod sparse_order;
 mod sparse_pairs;
 mod sparse_supports;
+mod stiff_on_soft;
 mod two_body;
 mod whole_models;

@@ -6,14 +6,14 @@ use super::numeric::Numeric;
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious};
+use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, sizes};
 use crate::linalg::watched::GoesOn;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
-/// them depend on the others, at no cost. Of more rows small diagonal entries alone are looked at.
+/// them depend on the others, at no cost. Of more rows the weakest pivot and the diagonal say if they are looked at.
 const FEW: usize = 24;
 
 /// The factor and the Schur complement.
@@ -42,34 +42,38 @@ impl SparseSchur {
         Self::planned(plan, lower, true, progress)
     }
 
-    /// Factorises the matrix of which `plan` was made. Free motions are looked for if `C` has few rows or small
-    /// diagonal entries, or `always`.
+    /// Factorises the matrix of which `plan` was made. Free motions are looked for if `C` has few rows, if
+    /// rounding may hide them, or `always`.
     pub fn planned(
         plan: Plan,
         mut lower: Csc,
         always: bool,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let (values, Numeric { schur, .. }) =
+        let (values, Numeric { schur, weakest, .. }) =
             diagnosed((&plan.structure, &plan.schedule), &mut lower, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
-        if always || m <= FEW || is_suspicious(&units, |i| found.schur[i + m * i]) {
-            found.settle(lower, &units, &mut || progress(FactorStep::HasDone(1.0)).is_ok())?;
+        let weakest = weakest.map_or(1.0, |(_, pivot)| pivot);
+        if always || m <= FEW || is_suspicious(weakest, &units, |i| found.schur[i + m * i]) {
+            let least = suspicious_pivot(weakest);
+            found.settle(lower, (&units, least), &mut || {
+                progress(FactorStep::HasDone(1.0)).is_ok()
+            })?;
             progress(FactorStep::HasDone(1.0))?;
         }
         Ok(found)
     }
 
-    /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` is the
-    /// diagonal of `C`.
+    /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` are the
+    /// diagonal of `C`, and pivots that are suspicious beside it.
     fn settle(
         &mut self,
         lower: Csc,
-        units: &[f64],
+        units: (&[f64], f64),
         goes_on: GoesOn<'_>,
     ) -> Result<(), StiffnessDefect> {
         let mut schur = std::mem::take(&mut self.schur);
