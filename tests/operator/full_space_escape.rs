@@ -147,7 +147,7 @@ fn upwards(dim: usize, force: f64) -> Vec<f64> {
     all
 }
 
-/// Pulled by more than the weight 1 a block flies off along the sum of both; by less it stays.
+/// Pulled by more than the weight 1 a block flies off along the sum of both; by less it stays. Given friction does not hold it.
 #[test]
 fn a_block_that_is_pulled_off() {
     for (dim, cells) in [(2, 4), (2, 11), (3, 3), (3, 5)] {
@@ -157,7 +157,10 @@ fn a_block_that_is_pulled_off() {
             let block = block.loaded(&all, &upwards(dim, pull));
             let status = if pull < 1.0 { Status::Solved } else { Status::NoEquilibrium };
             let left = upwards(dim, pull - 1.0);
-            block.compare((0.4, false), status, Some(&left), &format!("{dim}, {cells}, {pull}"));
+            for given in [false, true] {
+                let name = format!("{dim}, {cells}, {pull}, {given}");
+                block.compare((0.4, given), status, Some(&left), &name);
+            }
         }
     }
 }

@@ -246,19 +246,24 @@ fn by_attempts(
     Ok(best)
 }
 
-/// Ends with a free motion that proves that no equilibrium exists, if the balance of the loads finds one.
+/// Ends with a free motion that proves that no equilibrium exists: one that the balance of the loads finds, where admissible
+/// forces are cones, or that of the displacements that Newton's method has ended with.
 fn balance(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
     _start: &Displacements,
-    _best: &mut Outcome,
+    best: &mut Outcome,
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
     let contact = equations.contact;
     let Some(motions) = FreeMotions::of(bodies, contact.dim(), monitor)? else { return Ok(()) };
-    match motions.balance(contact, bodies.operator).escape() {
-        Some(motion) => Err(Ending::Recession(motions.continued(&motion))),
-        None => Ok(()),
+    let (balance, d) = (motions.balance(contact, bodies.operator), &best.point.at.x);
+    let found = balance
+        .escape()
+        .map_or_else(|| balance.ending_away(&d[bodies.operator.inner()..]), Ending::Recession);
+    match found {
+        Ending::Recession(motion) => Err(Ending::Recession(motions.continued(&motion))),
+        _ => Ok(()),
     }
 }
 
