@@ -46,7 +46,10 @@ extern "C" {
 #ifdef SIGNORINI_UNSTABLE /* These numbers may still change. */
 
 /* Normals of pairs from surfaces. */
-/** The default: the mean of the unit normals of all slave faces at the slave node. */
+/**
+ * The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar: that
+ * of the faces in contact where they cancel.
+ */
 #define SIGNORINI_NORMALS_AVERAGED 0
 /**
  * Normals of the faces in contact. Dual mortar: the mean at the slave node over the faces that lie
@@ -133,11 +136,12 @@ struct signorini_surface_settings {
     int32_t pairing; /**< SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR. */
     /**
      * Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-     * Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
-     * sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
-     * size of the largest slave face at most, and not through the body behind the slave face; an
-     * obstacle without faces has no limit. Over a step or an edge of the master a slave face is
-     * paired with the nearer part alone.
+     * Default 0. Then surfaces overlap by the size of the largest slave face at most, the largest
+     * distance of two of its nodes, and not through the body behind the slave face. Open surfaces
+     * are paired up to that size too, or if that is larger to the radius of the smaller side, the
+     * largest distance of a node from the mean of its nodes: half the diagonal of a rectangle. Of
+     * masters behind each other the nearest counts, and over a step or an edge of the master the
+     * nearer part alone. An obstacle without faces has no limit.
      */
     double search_distance;
     /**
@@ -171,7 +175,8 @@ struct signorini_surface_settings {
     int32_t axisymmetric;
     /**
      * Nonzero: a side without slave_shape or master_shape is curved through its nodes, by normals
-     * that are fitted to the nodes around; where faces turn by more than 35 degrees it stays sharp.
+     * that are fitted to the nodes around, and to their images at planes of symmetry; where faces
+     * turn by more than 35 degrees it stays sharp.
      * Default 0.
      */
     int32_t fitted;
@@ -282,7 +287,8 @@ struct signorini_surface_data {
     double slave_area;           /**< Area of the slave faces. */
     /** The part of it that lies over the other side: the areas of all pairs. */
     double covered_area;
-    double search_distance;      /**< The largest open distance that was looked at. */
+    /** The largest open distance that was looked at; summary names that of overlaps. */
+    double search_distance;
     /**
      * How often a master face was near a slave with a normal that does not oppose the slave's. If
      * it is not 0 and there are no pairs, one side is turned over.
@@ -292,11 +298,15 @@ struct signorini_surface_data {
     int64_t on_symmetry;         /**< Pairs whose slave node stands on a plane of symmetry. */
     /**
      * Number of slave faces that lie over nothing within the search distance, but point at a master
-     * beyond it: contact there is not seen. Give a larger search_distance if it may come to it.
+     * beyond it, or overlap one by more: contact there is not seen. Give a larger search_distance
+     * if it may come to it.
      */
     int64_t n_beyond;
     const int64_t *beyond;       /**< These faces. */
-    /** How far away the nearest master is, one for each of them; length. */
+    /**
+     * How far away the nearest master is, one for each of them; length; negative where they
+     * overlap.
+     */
     const double *beyond_distances;
     /** The distance between a folded node and its neighbour, one for each; length. */
     const double *folded_distances;
@@ -321,6 +331,7 @@ int32_t signorini_surface_view(const signorini_surface_pairs *contact,
 /**
  * Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
  * whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
+ * Of an obstacle the point is where the measured gap ends: close_within and clearance have no say.
  * Assemble your matrix with the moved nodes, and pair again.
  *
  * @param contact      the pairs

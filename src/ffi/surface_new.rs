@@ -134,6 +134,7 @@ pub unsafe extern "C" fn signorini_surface_free(contact: *mut SignoriniSurfacePa
 
 /// Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
 /// whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
+/// Of an obstacle the point is where the measured gap ends: close_within and clearance have no say.
 /// Assemble your matrix with the moved nodes, and pair again.
 ///
 /// @param contact      the pairs

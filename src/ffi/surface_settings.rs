@@ -16,7 +16,8 @@ pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
 /// the pressure between meshes that do not match is wrong by some percent.
 pub const SIGNORINI_PAIRING_NODE_TO_SURFACE: i32 = 1;
 
-/// The default: the mean of the unit normals of all slave faces at the slave node.
+/// The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar: that
+/// of the faces in contact where they cancel.
 pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// Normals of the faces in contact. Dual mortar: the mean at the slave node over the faces that lie
 /// over the master, weighted by the node's area there; around a sharp edge other faces do not turn
@@ -44,11 +45,12 @@ pub struct SignoriniSurfaceSettings {
     /// SIGNORINI_PAIRING_...; default SIGNORINI_PAIRING_DUAL_MORTAR.
     pub pairing: i32,
     /// Largest distance along the normal at which surfaces are paired, open or overlapping; length.
-    /// Default 0. Then open surfaces are paired up to half the diagonal of the smaller of the two
-    /// sides' boxes, and of masters behind each other the nearest counts; surfaces overlap by the
-    /// size of the largest slave face at most, and not through the body behind the slave face; an
-    /// obstacle without faces has no limit. Over a step or an edge of the master a slave face is
-    /// paired with the nearer part alone.
+    /// Default 0. Then surfaces overlap by the size of the largest slave face at most, the largest
+    /// distance of two of its nodes, and not through the body behind the slave face. Open surfaces
+    /// are paired up to that size too, or if that is larger to the radius of the smaller side, the
+    /// largest distance of a node from the mean of its nodes: half the diagonal of a rectangle. Of
+    /// masters behind each other the nearest counts, and over a step or an edge of the master the
+    /// nearer part alone. An obstacle without faces has no limit.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.
@@ -76,7 +78,8 @@ pub struct SignoriniSurfaceSettings {
     /// Default 0.
     pub axisymmetric: i32,
     /// Nonzero: a side without slave_shape or master_shape is curved through its nodes, by normals
-    /// that are fitted to the nodes around; where faces turn by more than 35 degrees it stays sharp.
+    /// that are fitted to the nodes around, and to their images at planes of symmetry; where faces
+    /// turn by more than 35 degrees it stays sharp.
     /// Default 0.
     pub fitted: i32,
     /// Most seconds of wall time; default 0, and infinity: no limit.

@@ -51,7 +51,7 @@ pub struct SignoriniSurfaceData {
     pub slave_area: f64,
     /// The part of it that lies over the other side: the areas of all pairs.
     pub covered_area: f64,
-    /// The largest open distance that was looked at.
+    /// The largest open distance that was looked at; summary names that of overlaps.
     pub search_distance: f64,
     /// How often a master face was near a slave with a normal that does not oppose the slave's. If
     /// it is not 0 and there are no pairs, one side is turned over.
@@ -61,11 +61,13 @@ pub struct SignoriniSurfaceData {
     /// Pairs whose slave node stands on a plane of symmetry.
     pub on_symmetry: i64,
     /// Number of slave faces that lie over nothing within the search distance, but point at a master
-    /// beyond it: contact there is not seen. Give a larger search_distance if it may come to it.
+    /// beyond it, or overlap one by more: contact there is not seen. Give a larger search_distance
+    /// if it may come to it.
     pub n_beyond: i64,
     /// These faces.
     pub beyond: *const i64,
-    /// How far away the nearest master is, one for each of them; length.
+    /// How far away the nearest master is, one for each of them; length; negative where they
+    /// overlap.
     pub beyond_distances: *const f64,
     /// The distance between a folded node and its neighbour, one for each; length.
     pub folded_distances: *const f64,

@@ -49,7 +49,7 @@ fn masters_stay(pairs: &[&SurfacePair], dim: usize, moves: &[(usize, f64)]) -> R
 
 impl SurfacePairs {
     /// Moves slave nodes so that the two points of each pair meet, of pairs whose points are no further apart than
-    /// `within`: along a plane of symmetry alone if they stand on one; towards an obstacle by the gap. `coordinates` are
+    /// `within`: along a plane of symmetry alone if they stand on one; towards an obstacle by the measured gap. `coordinates` are
     /// those of all nodes that were paired. Assemble the matrix with the moved nodes, and pair again.
     ///
     /// # Errors
@@ -78,7 +78,7 @@ impl SurfacePairs {
         let place = |&(node, weight): &Weight| weight * vector(&coordinates[dim * node..][..dim]);
         let apart = |pair: &SurfacePair| -> Vector3 {
             if pair.masters().is_empty() {
-                return -pair.gap * Vector3::from(pair.normal);
+                return -pair.measured_gap * Vector3::from(pair.normal);
             }
             let [slave, master] = [pair.slaves(), pair.masters()]
                 .map(|nodes| nodes.iter().map(place).sum::<Vector3>());

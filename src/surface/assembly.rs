@@ -42,6 +42,7 @@ pub(super) fn pair_of_row(
         normal: normal.into(),
         tangents: plane::tangents(slave.dim, normal).map(Into::into),
         gap,
+        measured_gap: gap,
         area,
         held: planes.held(node, normal)?,
     })

@@ -1,4 +1,4 @@
-//! Slave faces that lie over nothing within the search distance, and point at a master beyond it.
+//! Slave faces that lie over nothing within the search distance, and point at a master beyond it or overlap one by more.
 
 use super::candidates::Candidates;
 use super::mesh::Side;
@@ -8,7 +8,8 @@ use super::watch::Watch;
 use crate::error::Error;
 
 impl Candidates<'_> {
-    /// Adds to the report those of its uncovered faces, with the distance of the nearest master.
+    /// Adds to the report those of its uncovered faces, with the distance of the nearest master, negative where they overlap it:
+    /// where they are inside of a body, and no master face stands before it that looks their way, as that body's other side.
     ///
     /// # Errors
     /// What ends the watch.
@@ -19,26 +20,36 @@ impl Candidates<'_> {
         watch: &mut Watch<'_, '_>,
     ) -> Result<(), Error> {
         (report.boxes_searched, report.not_opposed) = (self.searched, self.not_opposed);
-        let from = self.reach.open;
-        self.reach.open = f64::max(from, self.span);
+        let reach = self.reach;
+        report.overlap_distance = reach.overlap;
+        (self.reach.overlap, self.reach.open) =
+            (f64::max(reach.overlap, self.span), f64::max(reach.open, self.span));
         let mut overlaps = Overlaps::default();
         for &at in &report.uncovered_faces {
             watch.goes_on()?;
-            let (face, mut nearest) = (slave.face(at), f64::INFINITY);
+            let face = slave.face(at);
             let normal = face.middle_normal();
             let in_plane = SlaveFace::new(&face, normal);
-            for &opposite in self.of_face(&face, normal) {
-                let part =
-                    in_plane.overlap(&master.face(opposite), |away| away > from, &mut overlaps);
-                let part = part.unwrap_or_default();
-                if part.share > 0.0 {
-                    nearest = nearest.min(part.distance);
+            let mut distances = |masters: &[usize]| {
+                let mut found = Vec::new();
+                for &other in masters {
+                    let part = in_plane.overlap(&master.face(other), |_| true, &mut overlaps);
+                    overlaps.points.clear();
+                    let part = part.unwrap_or_default();
+                    found.extend((part.share > 0.0).then_some(part.distance));
                 }
-                overlaps.points.clear();
-            }
-            if nearest.is_finite() {
-                report.beyond.push((at, nearest));
-            }
+                found
+            };
+            let opposite = distances(self.of_face(&face, normal));
+            let ahead = opposite.iter().copied().filter(|away| *away > reach.open);
+            let behind = opposite.iter().copied().filter(|away| *away < -reach.overlap);
+            let nearest = ahead.reduce(f64::min).or_else(|| {
+                let deep = behind.reduce(f64::max)?;
+                let looking_along = distances(self.of_face(&face, -normal));
+                let is_between = |away: &f64| (deep..0.0).contains(away);
+                (!looking_along.iter().any(is_between)).then_some(deep)
+            });
+            report.beyond.extend(nearest.map(|nearest| (at, nearest)));
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Planes, spheres, cylinders, cones and tori: distance and normal of a point. They are rigid obstacles, and true
 //! shapes of meshed sides.
 
+use super::plane::tangents;
 use crate::linalg::vector3::{Vector3, unit};
 
 /// A surface that does not deform. Vectors have their third component zero in the plane.
@@ -144,8 +145,9 @@ impl Obstacle {
                 (Form::Cone { apex, axis, cos_sin }, hollow)
             }
             Obstacle::Torus { centre, axis, radius, ring, hollow } => {
-                let axis = direction("axis", axis)?;
+                // First: a host's axis may be as long as the ring.
                 let (radius, ring) = (positive("radius", radius)?, positive("ring", ring)?);
+                let axis = direction("axis", axis)?;
                 if radius >= ring {
                     return Err(format!(
                         "its radius is {radius}, it must be less than that of the ring, {ring}"
@@ -184,19 +186,20 @@ impl ExactShape {
 
     /// The gap of a point, and the normal from the point into the obstacle; `None` where all normals
     /// are as good, on an axis or in a centre.
-    pub(super) fn facing(&self, x: Vector3) -> Option<(f64, Vector3)> {
-        let (distance, outward) = self.distance(x)?;
-        Some((self.sign * distance, -self.sign * outward))
+    pub(super) fn facing(&self, x: Vector3) -> (f64, Option<Vector3>) {
+        let (distance, outward) = self.distance(x);
+        (self.sign * distance, outward.map(|outward| -self.sign * outward))
     }
 
-    /// The distance of a point from the surface, negative inside of a shape that is not hollow, and its gradient.
-    pub(super) fn distance(&self, x: Vector3) -> Option<(f64, Vector3)> {
+    /// The distance of a point from the surface, negative inside of a shape that is not hollow, and its gradient, `None` as
+    /// above.
+    pub(super) fn distance(&self, x: Vector3) -> (f64, Option<Vector3>) {
         match self.form {
-            Form::Plane { point, outward } => Some((outward.dot(&(x - point)), outward)),
+            Form::Plane { point, outward } => (outward.dot(&(x - point)), Some(outward)),
             Form::Round { point, axis, radius } => {
                 let from = x - point;
                 let across = from - from.dot(&axis) * axis;
-                Some((across.norm() - radius, unit(across)?))
+                (across.norm() - radius, unit(across))
             }
             Form::Cone { apex, axis, cos_sin: [cos, sin] } => {
                 let from = x - apex;
@@ -204,16 +207,19 @@ impl ExactShape {
                 let across = from - along * axis;
                 // The foot would be beyond the apex.
                 if along * cos + across.norm() * sin <= 0.0 {
-                    return Some((from.norm(), unit(from)?));
+                    return (from.norm(), unit(from));
                 }
-                let outward = cos * unit(across)? - sin * axis;
-                Some((outward.dot(&from), outward))
+                let away = unit(across);
+                let outward = cos * away.unwrap_or_default() - sin * axis;
+                (outward.dot(&from), away.map(|_| outward))
             }
             Form::Torus { centre, axis, radius, ring } => {
                 let from = x - centre;
                 let across = from - from.dot(&axis) * axis;
-                let from_ring = from - ring * unit(across)?;
-                Some((from_ring.norm() - radius, unit(from_ring)?))
+                let away = unit(across);
+                // On the axis any point of the ring is as near.
+                let from_ring = from - ring * away.unwrap_or(tangents(3, axis)[0]);
+                (from_ring.norm() - radius, away.and(unit(from_ring)))
             }
         }
     }

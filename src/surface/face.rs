@@ -66,10 +66,11 @@ impl Face<'_> {
         self.normal(self.kind.centre())
     }
 
-    /// The longest distance of a node from the first one: a length that bounds the face.
+    /// The longest distance between two of its nodes.
     pub(super) fn size(&self) -> f64 {
         let x = &self.x[..self.kind.nodes()];
-        x.iter().map(|x| (x - self.x[0]).norm()).fold(0.0, f64::max)
+        let apart = x.iter().enumerate().flat_map(|(i, a)| x[..i].iter().map(move |b| a - b));
+        apart.map(|apart| apart.norm()).fold(0.0, f64::max)
     }
 
     /// Integrals of the shape functions over the whole face; their sum is its area.

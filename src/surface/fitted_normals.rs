@@ -5,7 +5,7 @@
 //! quadric by least squares through the node, over the faces around it and, of linear ones or if they have few nodes, those
 //! around these, in the frame of the normal, twice. Products with the height make it exact on spheres, cylinders and cones;
 //! faces with mid nodes, which are near their shape as they are, have that of the height with itself alone. Neither looks
-//! across an edge at which faces turn sharply.
+//! across an edge at which faces turn sharply. At planes of symmetry the mirror images of nodes count as in the whole body.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -14,6 +14,7 @@ use super::mesh::Side;
 use super::normals::direction;
 use super::plane;
 use super::shape::MOST_NODES;
+use super::symmetry::{Reflected, SymmetryPlane};
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::least_squares::least_squares;
@@ -35,7 +36,17 @@ pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
 
 /// # Errors
 /// What ends the watch.
-pub(super) fn fitted(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
+pub(super) fn fitted(
+    side: &Side<'_>,
+    planes: &[SymmetryPlane],
+    watch: &mut Watch<'_, '_>,
+) -> Result<Fitted, Error> {
+    if let Some((first, others)) = planes.split_first() {
+        let whole = Reflected::new(side, *first);
+        let mut normals = fitted(&whole.on(side), others, watch)?;
+        normals.truncate(side.count());
+        return Ok(normals);
+    }
     if side.dim == 2 { on_lines(side, watch) } else { on_faces(side, watch) }
 }
 

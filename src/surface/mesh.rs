@@ -64,7 +64,7 @@ pub enum Master<'a> {
 }
 
 /// One of the two sides, checked.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
     name: &'static str,
     argument: Argument,
@@ -126,6 +126,14 @@ impl<'a> Side<'a> {
         nodes
     }
 
+    /// The largest distance of a node from the mean of all of them: half the diagonal of a rectangle, however it is turned.
+    pub(super) fn radius(&self) -> f64 {
+        let nodes = self.all_nodes();
+        let places = || nodes.iter().map(|&node| self.position(node));
+        let mean = places().sum::<Vector3>() / nodes.len() as f64;
+        places().map(|x| (x - mean).norm()).fold(0.0, f64::max)
+    }
+
     fn nodes(&self, face: usize) -> &'a [usize] {
         &self.faces.nodes[self.faces.start[face]..self.faces.start[face + 1]]
     }
@@ -181,6 +189,11 @@ impl<'a> Side<'a> {
             }
         }
         Ok(side)
+    }
+
+    /// The side with other nodes and faces.
+    pub(super) fn with(self, coordinates: &'a [f64], faces: Faces<'a>) -> Side<'a> {
+        Side { coordinates, faces, ..self }
     }
 
     /// The argument that the coordinates are part of.
@@ -288,32 +301,37 @@ impl<'a> Side<'a> {
         Ok(())
     }
 
-    /// Refuses neighbours that run along their common edge in the same direction.
+    /// Refuses neighbours that run along their common edge in the same direction, if none runs along it in the other: where
+    /// bodies meet in an edge, two do in each.
     fn check_orientation(&self, watch: &mut Watch<'_, '_>) -> Result<(), Error> {
         let mut seen: HashMap<(usize, usize), usize> =
             HashMap::with_capacity(self.faces.nodes.len());
+        let mut again = Vec::new();
         for face in 0..self.count() {
             watch.goes_on()?;
             let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];
                 // On a line the node and its end: 0 if it begins there, 1 if it ends there.
-                let key = if self.dim == 2 { (a, i) } else { (a, b) };
+                let [key, opposite] =
+                    if self.dim == 2 { [(a, i), (a, 1 - i)] } else { [(a, b), (b, a)] };
                 if let Some(other) = seen.insert(key, face) {
-                    let where_ = if self.dim == 2 {
-                        format!("node {}", index(a))
-                    } else {
-                        format!("the edge of nodes {} and {}", index(a), index(b))
-                    };
-                    let what = format!(
-                        "and face {} disagree at {where_}: one of them is turned over, or they lie \
-                         upon each other; turn the order of its nodes, or leave it out",
-                        index(other)
-                    );
-                    return Err(self.refuse(face, &what));
+                    again.push(([face, other], [a, b], opposite));
                 }
             }
         }
-        Ok(())
+        let alone = again.iter().find(|(.., opposite)| !seen.contains_key(opposite));
+        let Some(([face, other], [a, b], _)) = alone else { return Ok(()) };
+        let where_ = if self.dim == 2 {
+            format!("node {}", index(a))
+        } else {
+            format!("the edge of nodes {} and {}", index(a), index(b))
+        };
+        let what = format!(
+            "and face {} disagree at {where_}: one of them is turned over, or they lie \
+             upon each other; turn the order of its nodes, or leave it out",
+            index(other)
+        );
+        Err(self.refuse(*face, &what))
     }
 }

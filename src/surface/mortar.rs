@@ -14,7 +14,7 @@ use super::candidates::{Candidates, SAME_WAY, SearchFaces};
 use super::control::Edges;
 use super::face::Face;
 use super::mesh::Side;
-use super::normals::{at_nodes, direction};
+use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
@@ -25,7 +25,7 @@ use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
 use super::true_shape::TrueSides;
 use super::watch::Watch;
-use crate::error::{Argument, Error, index};
+use crate::error::{Error, index};
 use crate::linalg::vector3::Vector3;
 
 /// What a slave face has over master faces, if it lies over any, and `true` if it has the functions of a face that is
@@ -58,7 +58,7 @@ pub(super) fn pairs<'a>(
     let [slave, _] = sides;
     let search_distance = candidates.reach.open;
     let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
-    let shapes = TrueSides::new(sides, &settings.shapes, watch)?;
+    let shapes = TrueSides::new(sides, settings, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, planes, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
@@ -77,7 +77,10 @@ pub(super) fn pairs<'a>(
         let averaged = slave.node_normals(planes, watch)?;
         for (node, row) in &mut rows {
             watch.goes_on()?;
-            row.normal = row.area * averaged[node];
+            let mean = averaged[node];
+            if mean != Vector3::zeros() {
+                row.normal = row.area * mean;
+            }
         }
     }
     report.folded = rims::fold(settings.rims, &mut rows, (slave, planes), watch)?;
@@ -95,10 +98,7 @@ pub(super) fn pairs<'a>(
 
 /// The normal of a row: the mean over what it covers, with the rows that it has taken in.
 fn mean_normal(node: usize, row: &Row) -> Result<Vector3, Error> {
-    direction(row.normal, row.area).ok_or_else(|| {
-        let message = format!("the normals of the slave faces at node {} cancel", index(node));
-        Error::invalid(Argument::SlaveFaces, message)
-    })
+    direction(row.normal, row.area).ok_or_else(|| cancel(node))
 }
 
 impl<'a> Search<'a> {
@@ -168,8 +168,9 @@ impl<'a> Search<'a> {
             let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
                 let opposite = index(opposite);
                 let what = format!(
-                    "cannot be projected on master face {opposite}: one of them is turned over or \
-                     strongly curved as seen along the slave's normal; refine there"
+                    "cannot be projected on master face {opposite}: one of them is turned over, strongly curved \
+                     or has a corner that is nearly straight, as seen along the slave's normal; refine there, or \
+                     make the other side the slave"
                 );
                 slave.refuse(at, &what)
             })?;

@@ -13,7 +13,7 @@ use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::{Candidates, SearchFaces};
 use super::face::Face;
 use super::mesh::Side;
-use super::normals::foot;
+use super::normals::{cancel, foot};
 use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::Row;
@@ -104,6 +104,9 @@ pub(super) fn pairs(
     for node in slave.all_nodes() {
         watch.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
+        if ray.1 == Vector3::zeros() {
+            return Err(cancel(node));
+        }
         if let Some(meeting) = meets(master, ray, normals, (&mut own, &mut candidates)) {
             met.insert(node, meeting);
         }

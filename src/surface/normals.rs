@@ -3,6 +3,7 @@
 use super::face::Face;
 use super::plane::Plane;
 use super::shape::{Local, MOST_NODES};
+use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, unit};
 
 /// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
@@ -28,6 +29,16 @@ pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {
 /// The direction of a sum of unit normals times areas; `None` if they cancel. `area` is the sum of the areas.
 pub(super) fn direction(sum: Vector3, area: f64) -> Option<Vector3> {
     unit(sum).filter(|_| sum.norm() > LEAST_NORMAL * area)
+}
+
+/// The error of a slave node at which they cancel.
+pub(super) fn cancel(node: usize) -> Error {
+    let message = format!(
+        "the normals of the slave faces at node {} cancel: leave out those of them that cannot touch, or pair \
+         the two sides of a thin body in two calls",
+        index(node)
+    );
+    Error::invalid(Argument::SlaveFaces, message)
 }
 
 /// The point of a face, or of its continuation, from which the perpendicular leads to `x`: local coordinates

@@ -48,17 +48,20 @@ pub(super) fn pairs(
     self_overlap::check(&side, &mut SearchFaces::new(&side, watch)?, reach, watch)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
-        let Some(met) = obstacle.facing(side.position(node)) else {
+        let (away, normal) = obstacle.facing(side.position(node));
+        if normal.is_none() && away.abs() <= reach {
             return refuse(&format!(
-                "node {} stands on its axis or in its centre, where it has no normal",
+                "node {} stands on its axis or in its centre, where it has no normal: leave out the faces there, \
+                 give a search distance that does not reach them, or an obstacle of faces",
                 index(node)
             ));
-        };
-        facing.insert(node, met);
+        }
+        facing.insert(node, (away, normal.unwrap_or_default()));
     }
     let looking_away = looking_away(&side, &obstacle);
+    let [search_distance, overlap_distance] = [reach; 2];
     let mut report =
-        SurfaceReport { search_distance: reach, looking_away, ..SurfaceReport::default() };
+        SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
     let rows = whole_rows(meets, (&side, &planes), &mut report, watch)?;
     let pair = |node, row: Row| {
@@ -76,8 +79,8 @@ pub(super) fn pairs(
 fn looking_away(side: &Side<'_>, shape: &ExactShape) -> usize {
     let looks_away = |at: &usize| {
         let (face, middle) = (side.face(*at), side.face(*at).kind.centre());
-        let met = shape.facing(face.position(middle));
-        met.is_some_and(|(_, normal)| normal.dot(&face.outward(middle)) <= 0.0)
+        let (_, normal) = shape.facing(face.position(middle));
+        normal.is_some_and(|normal| normal.dot(&face.outward(middle)) <= 0.0)
     };
     (0..side.count()).filter(looks_away).count()
 }

@@ -14,10 +14,6 @@ use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
 use crate::problem::checked_dim;
 
-/// The default search distance beside the diagonal of the smaller of the two sides' boxes: displacements that are small
-/// beside the bodies do not reach further.
-const OF_BOX: f64 = 0.5;
-
 /// Pairs a surface with what it may touch. Surfaces that never meet give no pairs, which is no error. `monitor` has the
 /// time limit and the callback.
 ///
@@ -74,7 +70,8 @@ fn pair_sides(
     watch.goes_on()?;
     let mut own = SearchFaces::new(&slave, watch)?;
     let mut opposite = SearchFaces::new(&master, watch)?;
-    let (reach, span) = reach(&slave, [own.tree.bounds(), opposite.tree.bounds()], settings);
+    let (reach, span) =
+        reach([&slave, &master], [own.tree.bounds(), opposite.tree.bounds()], settings);
     watch.expects(2 * slave.count() + master.count());
     self_overlap::check(&slave, &mut own, reach.overlap, watch)?;
     if settings.pairing == Pairing::DualMortar {
@@ -96,16 +93,24 @@ fn pair_sides(
     Ok(found)
 }
 
-/// How far masters are looked for, and how far away any face may be.
-fn reach(slave: &Side<'_>, boxes: [Option<Bounds>; 2], settings: &SurfaceSettings) -> (Reach, f64) {
+/// How far masters are looked for, and how far away any face may be. Displacements that are small beside the bodies do not
+/// reach further than the smaller of the two sides.
+fn reach(
+    sides: [&Side<'_>; 2],
+    boxes: [Option<Bounds>; 2],
+    settings: &SurfaceSettings,
+) -> (Reach, f64) {
+    let [slave, _] = sides;
     let largest = (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
     let all = boxes.into_iter().flatten().reduce(|a, b| a.with(&b));
     let span = all.map_or(0.0, |all| all.diagonal());
-    let smaller = boxes.map(|of_side| of_side.map_or(0.0, |of_side| of_side.diagonal()));
-    let open = largest.max(OF_BOX * smaller[0].min(smaller[1]));
+    let open = || {
+        let [own, opposite] = sides.map(Side::radius);
+        largest.max(own.min(opposite))
+    };
     let reach = match settings.search_distance.map(|distance| slave.scale * distance) {
         Some(given) => Reach { overlap: given, open: given, layer: f64::INFINITY },
-        None => Reach { overlap: largest, open, layer: largest },
+        None => Reach { overlap: largest, open: open(), layer: largest },
     };
     (reach, span)
 }

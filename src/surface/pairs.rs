@@ -25,6 +25,8 @@ pub struct SurfacePair {
     pub tangents: [[f64; 3]; 2],
     /// Initial gap: positive if open, negative if the surfaces overlap.
     pub gap: f64,
+    /// It as measured, before `close_within` and `clearance`.
+    pub measured_gap: f64,
     /// The area that the pair carries: the pressure is the normal force of the row over it.
     pub area: f64,
     /// The axes across which the slave node stands on a plane of symmetry: along them the pair neither moves nor
@@ -48,6 +50,8 @@ pub struct Fold {
 pub struct SurfaceReport {
     /// The largest open distance that was looked at; infinite against an obstacle if none was given.
     pub search_distance: f64,
+    /// The largest depth of an overlap that was looked at.
+    pub overlap_distance: f64,
     /// Number of slave faces.
     pub slave_faces: usize,
     /// Area of the slave faces.
@@ -56,8 +60,8 @@ pub struct SurfaceReport {
     pub covered_area: f64,
     /// Slave faces that lie over nothing.
     pub uncovered_faces: Vec<usize>,
-    /// Slave faces that lie over nothing within the search distance, but point at a master beyond it: each with how far
-    /// that is away. Contact there is not seen.
+    /// Slave faces that lie over nothing within the search distance, but point at a master beyond it, or overlap one by more:
+    /// each with how far that is away, negative if they overlap. Contact there is not seen.
     pub beyond: Vec<(usize, f64)>,
     /// Nodes with little cover.
     pub folded: Vec<Fold>,

@@ -121,7 +121,7 @@ impl KeptSurfaces {
             KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
-                let depth = |x: Vector3| shape.facing(x).map_or(0.0, |(gap, _)| -gap);
+                let depth = |x: Vector3| -shape.facing(x).0;
                 self.deepest(held, &slaves, watch, |faces, at, least| {
                     let [before, now] = faces.map(|face| depth(face.position(at)));
                     (before <= least).then_some((now, None))

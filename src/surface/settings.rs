@@ -20,7 +20,7 @@ pub enum Pairing {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// The mean of the unit normals of all slave faces at the slave node: it varies smoothly over meshes of
-    /// curved surfaces.
+    /// curved surfaces. By dual mortar that of the faces in contact where they cancel.
     #[default]
     Averaged,
     /// The normal of the faces in contact. By dual mortar the mean of the unit normals at the node of the slave faces that
@@ -63,10 +63,11 @@ pub enum TrueShape {
 pub struct SurfaceSettings {
     /// How the rows are made.
     pub pairing: Pairing,
-    /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: open surfaces up
-    /// to half the diagonal of the smaller of the two sides' boxes, and of masters behind each other the nearest;
-    /// overlapping ones up to the size of the largest slave face, and not through the body behind the slave face; against an
-    /// obstacle without faces no limit. Over a step or an edge of the master a slave face is paired with the nearer part alone.
+    /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: overlapping ones up
+    /// to the size of the largest slave face, the largest distance of two of its nodes, and not through the body behind the
+    /// slave face; open ones up to that size too, or if that is larger to the radius of the smaller side, the largest distance
+    /// of a node from the mean of all of its nodes, and of masters behind each other the nearest; against an obstacle without
+    /// faces no limit. Over a step or an edge of the master a slave face is paired with the nearer part alone.
     pub search_distance: Option<f64>,
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.
@@ -110,10 +111,11 @@ impl SurfaceSettings {
             );
         }
         let (within, shift) = (self.close_within, self.clearance);
-        if !(within >= 0.0 && shift.is_finite()) {
-            return refuse(&format!(
-                "close_within is {within}, it must not be negative; clearance is {shift}, it must be finite"
-            ));
+        if !(within >= 0.0) {
+            return refuse(&format!("close_within is {within}, it must not be negative"));
+        }
+        if !shift.is_finite() {
+            return refuse(&format!("clearance is {shift}, it must be finite"));
         }
         if self.pairing == Pairing::NodeToSurface && self.shapes != [TrueShape::Facets; 2] {
             return refuse(

@@ -17,17 +17,35 @@ impl SurfacePairs {
                  surfaces are curved, their facets are larger than the interference; give their true shapes"
             );
         }
-        let nearest = self.report.beyond.iter().min_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((face, distance)) = nearest {
-            text += &format!(
-                "; {} slave faces point at a master beyond the search distance of {}, the nearest, face {}, at {}",
-                self.report.beyond.len(),
-                short(self.report.search_distance),
-                index(face),
-                short(*distance)
-            );
+        // In one clause, the last.
+        let beyond = self.beyond().join(", and ");
+        if !beyond.is_empty() {
+            text += &format!("; {beyond}");
         }
         text.into()
+    }
+
+    /// The faces that point at a master too far away, and those that overlap one by too much.
+    fn beyond(&self) -> Vec<String> {
+        let report = &self.report;
+        let of_sign = |is_deep: bool| {
+            let faces = report.beyond.iter().filter(move |(_, away)| (*away < 0.0) == is_deep);
+            faces.collect::<Vec<_>>()
+        };
+        let within = short(report.search_distance);
+        let point_at = format!("point at a master beyond the search distance of {within}");
+        let overlap = format!("overlap a master by more than {}", short(report.overlap_distance));
+        let told = [(of_sign(false), point_at, "at"), (of_sign(true), overlap, "by")].map(
+            |(faces, what, at)| {
+                let nearest = faces.iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+                let (count, face, distance) =
+                    (faces.len(), index(nearest.0), short(nearest.1.abs()));
+                Some(format!(
+                    "{count} slave faces {what}, the nearest, face {face}, {at} {distance}"
+                ))
+            },
+        );
+        told.into_iter().flatten().collect()
     }
 
     fn found(&self) -> String {
@@ -55,11 +73,14 @@ impl SurfacePairs {
         if self.unpaired.is_empty() {
             return "no pairs: there are no slave faces".into();
         }
-        let found = format!(
+        let mut found = format!(
             "no pairs: nothing lies opposite the {} slave faces within {}",
             report.slave_faces,
             short(report.search_distance)
         );
+        if report.overlap_distance < report.search_distance {
+            found += &format!(", or overlaps them by at most {}", short(report.overlap_distance));
+        }
         match report.not_opposed {
             0 => format!("{found}; if it should, give a larger search distance"),
             times => format!(

@@ -10,7 +10,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::face::Face;
-use super::mesh::{ON_PLANE, Side};
+use super::mesh::{Faces, ON_PLANE, Side};
 use super::normals::{at_nodes, direction};
 use super::sweep::Bounds;
 use super::watch::Watch;
@@ -121,32 +121,77 @@ impl OnPlanes {
     }
 }
 
+/// A side with its mirror image across a plane, behind its own nodes and faces. Nodes on the plane are their own images.
+pub(super) struct Reflected {
+    coordinates: Vec<f64>,
+    start: Vec<usize>,
+    nodes: Vec<usize>,
+}
+
+impl Reflected {
+    /// Without the image if the side has nodes beyond the plane.
+    pub(super) fn new(side: &Side<'_>, SymmetryPlane { axis, at }: SymmetryPlane) -> Reflected {
+        let mut coordinates = side.coordinates.to_vec();
+        let (mut start, mut nodes) = (side.faces.start.to_vec(), side.faces.nodes.to_vec());
+        let own = side.all_nodes();
+        let Bounds { low, high } = Bounds::of(own.iter().map(|&node| side.position(node)));
+        let (near, at_plane) = (ON_PLANE * (high - low).amax(), side.scale * at);
+        if high[axis] <= at_plane + near || low[axis] >= at_plane - near {
+            let mut images = HashMap::new();
+            for node in own {
+                let mut image = node;
+                if (side.position(node)[axis] - at_plane).abs() > near {
+                    image = coordinates.len() / side.dim;
+                    coordinates.extend_from_within(side.dim * node..side.dim * (node + 1));
+                    let mirrored = &mut coordinates[side.dim * image + axis];
+                    *mirrored = 2.0 * at - *mirrored;
+                }
+                images.insert(node, image);
+            }
+            for face in 0..side.count() {
+                let (face, corners) = (side.face(face), side.corners(face).len());
+                let mut image: Vec<usize> = face.nodes.iter().map(|node| images[node]).collect();
+                image[..corners].reverse();
+                // Mid nodes are between corners as before; the last edge stays the last.
+                let mids = corners..face.nodes.len().min(2 * corners - 1);
+                image[mids].reverse();
+                nodes.extend(image);
+                start.push(nodes.len());
+            }
+        }
+        Reflected { coordinates, start, nodes }
+    }
+
+    /// As a side like the one that it was made of.
+    pub(super) fn on<'a>(&'a self, side: &Side<'a>) -> Side<'a> {
+        let faces = Faces { start: &self.start, nodes: &self.nodes };
+        side.with(&self.coordinates, faces)
+    }
+}
+
 impl Side<'_> {
-    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand.
+    /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand; zero
+    /// where they cancel.
     ///
     /// # Errors
-    /// A node whose faces' normals cancel; what ends the watch.
+    /// What ends the watch.
     pub(super) fn node_normals(
         &self,
         planes: &OnPlanes,
         watch: &mut Watch<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
-        let mut sums: HashMap<usize, (Vector3, usize)> = HashMap::new();
+        let mut normals: HashMap<usize, Vector3> = HashMap::new();
         for at in 0..self.count() {
             watch.goes_on()?;
             let face = self.face(at);
             for (&node, normal) in face.nodes.iter().zip(at_nodes(&face)) {
-                sums.entry(node).or_insert((Vector3::zeros(), at)).0 += normal;
+                *normals.entry(node).or_default() += normal;
             }
         }
-        let normal = |(node, (sum, face)): (usize, (Vector3, usize))| {
+        for (&node, normal) in &mut normals {
             watch.goes_on()?;
-            let normal = direction(sum, 1.0).ok_or_else(|| {
-                let what = format!("has node {}, where normals cancel", index(node));
-                self.refuse(face, &what)
-            })?;
-            Ok((node, planes.turned(node, normal)))
-        };
-        sums.into_iter().map(normal).collect()
+            *normal = planes.turned(node, direction(*normal, 1.0).unwrap_or_default());
+        }
+        Ok(normals)
     }
 }

@@ -13,7 +13,7 @@ use super::mesh::Side;
 use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
 use super::projected_shapes::Opposite;
-use super::settings::TrueShape;
+use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
@@ -53,15 +53,19 @@ impl<'a> TrueSides<'a> {
     /// A shape with wrong numbers, or one that a node of its side is far from.
     pub(super) fn new(
         [slave, master]: [&'a Side<'a>; 2],
-        shapes: &[TrueShape; 2],
+        settings: &SurfaceSettings,
         watch: &mut Watch<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
+        let shapes = &settings.shapes;
         if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
             return Ok(None);
         }
         let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::default()),
-            TrueShape::Fitted => Ok(TrueSide { fitted: Some(fitted(side, watch)?), exact: None }),
+            TrueShape::Fitted => {
+                let fitted = Some(fitted(side, &settings.symmetry, watch)?);
+                Ok(TrueSide { fitted, exact: None })
+            }
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
@@ -110,11 +114,18 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
         let face = side.face(at);
         for &node in face.nodes {
             let place = format!("node {} of face {}", index(node), index(at));
-            let Some((distance, _)) = shape.distance(side.position(node)) else {
-                return Err(format!("{place} stands on its axis or in its centre"));
-            };
+            let (distance, normal) = shape.distance(side.position(node));
+            // The apex of a cone is a point of it.
+            if normal.is_none() && distance.abs() > LAST * face.size() {
+                return Err(format!(
+                    "{place} stands on its axis or in its centre: leave that face out of the side"
+                ));
+            }
             if distance.abs() > face.size() {
-                return Err(format!("{place} is further away from it than the face is long"));
+                return Err(format!(
+                    "{place} is further away from it than the face is long: leave that face out of the side, or \
+                     look at the shape's place and unit of length"
+                ));
             }
         }
     }
@@ -142,7 +153,7 @@ impl Over<'_> {
     fn point(&self, at: Local) -> (Vector3, Vector3) {
         let (x, [a, b]) = self.at(at);
         let outward = unit(a.cross(&b)).unwrap_or_default();
-        let Some((distance, gradient)) = self.exact.and_then(|shape| shape.distance(x)) else {
+        let Some((distance, Some(gradient))) = self.exact.map(|shape| shape.distance(x)) else {
             return (x, outward);
         };
         let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };
@@ -154,7 +165,7 @@ impl Over<'_> {
 fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64) -> f64 {
     let mut along = 0.0;
     for _ in 0..MOST_STEPS {
-        let Some((distance, gradient)) = shape.distance(x + along * normal) else { break };
+        let (distance, Some(gradient)) = shape.distance(x + along * normal) else { break };
         let fall = gradient.dot(&normal);
         let step = distance / fall.abs().max(LEAST_FALL).copysign(fall);
         along -= step;

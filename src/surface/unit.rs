@@ -40,6 +40,7 @@ impl Unit {
         for pair in &mut found.pairs {
             pair.point.iter_mut().for_each(length);
             length(&mut pair.gap);
+            pair.measured_gap = pair.gap;
             pair.gap = settings.gap(pair.gap);
             area(&mut pair.area);
             if !pair.area.is_normal() {
@@ -52,6 +53,7 @@ impl Unit {
         }
         let report = &mut found.report;
         length(&mut report.search_distance);
+        length(&mut report.overlap_distance);
         report.folded.iter_mut().for_each(|fold| length(&mut fold.distance));
         report.beyond.iter_mut().for_each(|(_, distance)| length(distance));
         area(&mut report.slave_area);

@@ -98,6 +98,7 @@ impl SurfaceReport {
     /// Adds what holds of another zone, but for its lists of faces.
     fn add(&mut self, other: &SurfaceReport) {
         self.search_distance = self.search_distance.max(other.search_distance);
+        self.overlap_distance = self.overlap_distance.max(other.overlap_distance);
         self.slave_faces += other.slave_faces;
         self.slave_area += other.slave_area;
         self.covered_area += other.covered_area;

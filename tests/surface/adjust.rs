@@ -166,3 +166,37 @@ fn nodes_are_moved_onto_a_sphere() {
         }
     }
 }
+
+/// Nodes move onto the other side, whatever gap the settings make of the measured one: those over a plane as those over faces in
+/// it. Heights of 0 to a few roundings.
+#[test]
+fn a_clearance_moves_no_nodes() {
+    let rng = &mut Rng::with_seed(22);
+    let mut level = |z: f64| {
+        let sheet = Sheet::rectangle(Shape::Q4, [2; 2], [[0.0, 1.0]; 2], (0.0, rng));
+        sheet.mapped(|[x, y, _]| [x, y, z])
+    };
+    let (sole, floor) = (level(0.05).turned(), level(0.0));
+    let (start, list) = flat(&sole.faces);
+    let slave = Faces { start: &start, nodes: &list };
+    let sheets = crate::surfaces::TwoSheets::new(3, sole.clone(), floor);
+    let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 0.0, 1.0] };
+    for (close_within, clearance) in [(0.0, 0.0), (0.0, -0.1), (0.0, 0.1), (0.06, 0.0)] {
+        let settings = SurfaceSettings { close_within, clearance, ..Default::default() };
+        let own = sole.nodes.concat();
+        let on_plane = pair_with_obstacle(3, &own, slave, &plane, &settings).unwrap();
+        for (found, coordinates) in
+            [(on_plane, own), (sheets.pair(&settings).unwrap(), sheets.nodes.concat())]
+        {
+            for within in [0.07, f64::INFINITY] {
+                let mut moved = coordinates.clone();
+                found.adjust(within, &mut moved, &mut unlimited()).unwrap();
+                let heights = moved.chunks(3).map(|p| p[2].abs());
+                assert!(
+                    heights.fold(0.0, f64::max) < 1e-15,
+                    "{close_within}, {clearance}: {moved:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! Nodes above quadrilaterals with straight edges, of any convex shape: the weights of each are the shape functions at
 //! the place that it stands above.
 
+use crate::surfaces::{Shape, Sheet, TwoSheets};
 use fastrand::Rng;
 use signorini::surface::{
     Faces, Master, Pairing, SurfacePairs, SurfaceSettings, Surfaces, pair_surfaces,
@@ -163,4 +164,33 @@ fn points_without_local_coordinates_have_no_pair() {
     let trapezium = [[0.0, 0.0], [2.0, 0.0], [1.5, 1.0], [0.5, 1.0]];
     let found = pairs(&trapezium, &[[[1.0, 2.0], [1.0, 0.5], [1.2, 0.5]]]);
     assert_eq!(found.unpaired, [4]);
+}
+
+/// A curved face with a corner of 164 degrees, as meshers leave them beside a circle: its area is positive everywhere, but its
+/// local coordinates turn back shortly beyond that corner. It is refused, and told why.
+#[test]
+fn a_face_with_a_corner_that_is_nearly_straight_is_told() {
+    let at = [
+        [0.199, 0.0],
+        [0.0, 0.0],
+        [-0.162, -0.034],
+        [0.132, -0.1165],
+        [0.1, 0.0],
+        [-0.0813, -0.017],
+        [-0.0151, -0.076],
+        [0.1659, -0.0584],
+    ];
+    let slave = Sheet {
+        nodes: at.iter().map(|p| [p[0], p[1], 0.0]).collect(),
+        faces: vec![(0..8).collect()],
+    };
+    let flat =
+        Sheet::rectangle(Shape::Q4, [1; 2], [[-0.3, 0.3]; 2], (0.0, &mut Rng::with_seed(31)));
+    let sheets = TwoSheets::new(3, slave, flat.turned().mapped(|[x, y, _]| [x, y, 0.1]));
+    let error = sheets.pair(&SurfaceSettings::default()).unwrap_err().to_string();
+    let says = "slave face 0 cannot be projected on master face 0: ";
+    assert!(
+        error.starts_with(says) && error.contains("a corner that is nearly straight"),
+        "{error}"
+    );
 }

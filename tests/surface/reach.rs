@@ -382,3 +382,77 @@ fn wrong_rings_are_refused() {
     let error = curved(Shape::T3, 1.0).pair(&settings).unwrap_err().to_string();
     assert!(error.starts_with("axisymmetric: faces of bodies of revolution are lines"), "{error}");
 }
+
+/// Two sheets in one list, the first one's faces first.
+fn joined(first: Sheet, second: Sheet) -> Sheet {
+    let count = first.nodes.len();
+    let shifted = |face: Vec<usize>| face.into_iter().map(|node| count + node).collect();
+    Sheet {
+        nodes: [first.nodes, second.nodes].concat(),
+        faces: first.faces.into_iter().chain(second.faces.into_iter().map(shifted)).collect(),
+    }
+}
+
+/// A unit square of so many cells at a height, its normal upwards.
+fn level(cells: usize, height: f64) -> Sheet {
+    let rng = &mut Rng::with_seed(8);
+    let flat = Sheet::rectangle(Shape::Q4, [cells; 2], [[0.0, 1.0]; 2], (0.0, rng));
+    flat.mapped(|[x, y, _]| [x, y, height])
+}
+
+/// A square that overlaps another one by a half, more than its faces are long, is told with that depth, and paired if the
+/// search distance allows for it. The upper and lower sides of two plates that stand on each other overlap nothing.
+#[test]
+fn deep_overlaps_are_told() {
+    for pairing in PAIRINGS {
+        let settings = SurfaceSettings { pairing, ..SurfaceSettings::default() };
+        let deep = TwoSheets::new(3, level(5, -0.5).turned(), level(3, 0.0));
+        let found = deep.pair(&settings).unwrap();
+        let told = found.report.beyond.iter();
+        assert!(told.clone().map(|(face, _)| *face).eq(0..25), "{:?}", found.report.beyond);
+        assert!(told.clone().all(|(_, distance)| (distance + 0.5).abs() < 1e-14));
+        let says = "no pairs: nothing lies opposite the 25 slave faces within 0.7071, or overlaps them by at most 0.2828; if it \
+                    should, give a larger search distance; 25 slave faces overlap a master by more than 0.2828, the nearest, \
+                    face 0, by 0.5";
+        assert_eq!(found.summary().to_string(), says);
+        let settings = SurfaceSettings { search_distance: Some(0.6), ..settings };
+        let found = deep.pair(&settings).unwrap();
+        assert_eq!((found.pairs.len(), found.report.beyond.len()), (36, 0));
+        assert!(found.pairs.iter().all(|pair| (pair.gap + 0.5).abs() < 1e-14));
+        let upper = joined(level(5, 0.0).turned(), level(5, 1.0));
+        let lower = joined(level(3, 0.0), level(3, -1.0).turned());
+        let settings = SurfaceSettings { pairing, ..SurfaceSettings::default() };
+        let found = TwoSheets::new(3, upper, lower).pair(&settings).unwrap();
+        assert_eq!((found.pairs.len(), found.report.beyond.len()), (36, 0));
+    }
+}
+
+/// The default search distance is a length of the bodies: it is the same whichever corner of a face is first, and however the
+/// model is turned. That of a square is half of its diagonal, by definition; to a few roundings.
+#[test]
+fn the_default_search_distance_is_invariant() {
+    let rng = &mut Rng::with_seed(9);
+    let floor = level(1, 0.0).mapped(|[x, y, z]| [15.0 * x - 6.0, 15.0 * y - 6.0, z]);
+    // The longest side of the triangle is 5, above the overlap.
+    let nodes = [[0.0, 0.0, -4.5], [4.0, 0.0, -4.5], [0.0, 3.0, -4.5]].to_vec();
+    for face in [[0, 2, 1], [2, 1, 0], [1, 0, 2]] {
+        let faces = vec![face.to_vec()];
+        let slave = Sheet { nodes: nodes.clone(), faces };
+        let found = TwoSheets::new(3, slave, floor.clone()).pair(&SurfaceSettings::default());
+        assert_eq!(found.unwrap().pairs.len(), 3, "{face:?}");
+    }
+    for gap in [0.7, 0.75, 0.8] {
+        for _ in 0..10 {
+            let [a, b] =
+                [rng.f64(), rng.f64()].map(|part| (std::f64::consts::TAU * part).sin_cos());
+            let turned = |[x, y, z]: [f64; 3]| {
+                let (x, y) = (a.1 * x - a.0 * y, a.0 * x + a.1 * y);
+                [x, b.1 * y - b.0 * z, b.0 * y + b.1 * z]
+            };
+            let [slave, master] = [level(4, gap).turned(), floor.clone()].map(|s| s.mapped(turned));
+            let found = TwoSheets::new(3, slave, master).pair(&SurfaceSettings::default()).unwrap();
+            assert!((found.report.search_distance - 0.5_f64.sqrt()).abs() < 1e-14);
+            assert_eq!(found.pairs.len(), if gap == 0.7 { 25 } else { 0 }, "{gap}");
+        }
+    }
+}

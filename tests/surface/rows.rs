@@ -624,3 +624,71 @@ fn gaps_of_curved_surfaces_converge() {
         }
     }
 }
+
+/// Squares of one body that meet in an edge, in the plane in a node, as those of voxels: two faces run along it each way. The
+/// soles of both are paired, and the walls around the edge cancel in the mean normal there.
+#[test]
+fn bodies_may_meet_in_an_edge() {
+    let at = |x: f64, y: f64, z: f64| [x, y, z];
+    let grid = |z| (0..9).map(move |k| at(f64::from(k % 3), f64::from(k / 3), z));
+    let mut nodes: Vec<[f64; 3]> = grid(0.0).chain(grid(1.0)).collect();
+    nodes.extend([
+        at(-1.0, -1.0, -0.1),
+        at(3.0, -1.0, -0.1),
+        at(3.0, 3.0, -0.1),
+        at(-1.0, 3.0, -0.1),
+    ]);
+    let soles = [vec![0, 3, 4, 1], vec![4, 7, 8, 5]];
+    let walls = [vec![1, 4, 13, 10], vec![4, 3, 12, 13], vec![7, 4, 13, 16], vec![4, 5, 14, 13]];
+    let slave = [&soles[..], &walls].concat();
+    let found = pair(3, &nodes, [&slave, &[vec![18, 19, 20, 21]]], &SurfaceSettings::default());
+    let found = found.unwrap();
+    assert_eq!(found.pairs.len(), 7);
+    assert!((found.report.covered_area - 2.0).abs() < 1e-14);
+    assert_eq!(found.pairs.iter().find(|pair| pair.slave == 4).unwrap().normal, [0.0, 0.0, -1.0]);
+    // In the plane the normals of both squares cancel in the node: that of the line over the master is taken.
+    let mut nodes: Vec<[f64; 3]> = grid(0.0).collect();
+    nodes.extend([at(-1.0, -0.1, 0.0), at(3.0, -0.1, 0.0)]);
+    let squares = [[0, 1], [1, 4], [4, 3], [3, 0], [4, 5], [5, 8], [8, 7], [7, 4]];
+    let slave: Vec<Vec<usize>> = squares.iter().map(|line| line.to_vec()).collect();
+    let found = |pairing| {
+        let settings = SurfaceSettings { pairing, ..SurfaceSettings::default() };
+        pair(2, &nodes, [&slave, &[vec![10, 9]]], &settings)
+    };
+    let pairs = found(Pairing::DualMortar).unwrap().pairs;
+    assert_eq!(pairs.iter().find(|pair| pair.slave == 4).unwrap().normal, [0.0, -1.0, 0.0]);
+    let error = found(Pairing::NodeToSurface).unwrap_err().to_string();
+    assert!(
+        error.contains("at node 4 cancel: leave out those of them that cannot touch"),
+        "{error}"
+    );
+}
+
+/// A plate on an O-ring: its middle stands on the axis, where all normals are as good. Out of reach it has no pair; within
+/// reach it is refused. The rim touches the top of the tube: gaps of zero to a few roundings.
+#[test]
+fn a_node_on_an_axis_counts_within_reach() {
+    let coordinates =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+    let (start, nodes) = flat(&[vec![0, 2, 1], vec![0, 3, 2], vec![0, 4, 3], vec![0, 1, 4]]);
+    let slave = Faces { start: &start, nodes: &nodes };
+    let (centre, axis) = ([0.0, 0.0, -0.3], [0.0, 0.0, 1.0]);
+    let found = |ring: f64, search_distance: Option<f64>| {
+        let tube = Obstacle::Torus { centre, axis, radius: 0.3, ring, hollow: false };
+        let settings = SurfaceSettings { search_distance, ..SurfaceSettings::default() };
+        pair_with_obstacle(3, &coordinates.concat(), slave, &tube, &settings)
+    };
+    // From the middle to the tube.
+    let away = 1.0_f64.hypot(0.3) - 0.3;
+    let near = found(1.0, Some(0.99 * away)).unwrap();
+    assert!(near.pairs.iter().map(|pair| pair.slave).eq(1..5));
+    assert!(near.pairs.iter().all(|pair| pair.gap.abs() < 1e-15));
+    assert_eq!(near.unpaired, [0]);
+    for search_distance in [None, Some(1.01 * away)] {
+        let error = found(1.0, search_distance).unwrap_err().to_string();
+        let says = "obstacle: node 0 stands on its axis or in its centre, where it has no normal: leave out the faces there";
+        assert!(error.starts_with(says), "{error}");
+    }
+    let error = found(0.0, None).unwrap_err().to_string();
+    assert_eq!(error, "obstacle: its ring is 0, it must be positive and finite");
+}
