@@ -86,8 +86,9 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     left of a line; in 3D triangles (3, 6) and quadrilaterals (4, 8, 9), counterclockwise from
     outside; corners first, then mid nodes, then the centre.
     pairing: "dual_mortar" or "node_to_surface".  search_distance: the largest one along the normal;
-    0: open surfaces up to half the diagonal of the smaller of the two sides' boxes, and of masters
-    behind each other the nearest; overlapping ones up to the size of the largest slave face.
+    0: overlapping surfaces up to the size of the largest slave face, and not through the body behind it;
+    open ones up to that too, or if that is larger up to the radius of the smaller side, the largest
+    distance of a node from the mean of its nodes. Of masters behind each other the nearest counts.
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
@@ -140,8 +141,8 @@ class SurfacePairs:
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
     whose pairs share its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
-    that lie over nothing.  beyond: those of them that point at a master beyond the search distance,
-    beyond_distances: how far away it is.
+    that lie over nothing.  beyond: those of them that point at a master beyond the search distance, or
+    overlap one by more; beyond_distances: how far away it is, negative where they overlap.
     summary: one sentence.  report: numbers and areas of signorini_surface_data, n_unpaired as
     unpaired and so on.
     """
@@ -380,6 +381,8 @@ def _shape(obstacle, dim):
                      hollow=bool(obstacle.hollow))
     if isinstance(obstacle, Torus):
         axis = reals("axis", obstacle.axis)
+        if not obstacle.ring > 0:
+            raise ValueError(f"ring of a Torus is {obstacle.ring}: give a positive radius")
         return sized(RigidObstacle, kind=Obstacle.TORUS, point=three(obstacle.centre),
                      direction=three(axis * (obstacle.ring / np.linalg.norm(axis))),
                      radius=obstacle.radius, hollow=bool(obstacle.hollow))
