@@ -114,14 +114,13 @@ impl<'a> Search<'a> {
         let Search { sides: [slave, _], planes, own, candidates, shapes, overlaps, polynomials } =
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
-        let is_reached = |opposite: &Opposite<'_>| {
-            let from = face.position(points[opposite.points.start].slave);
+        keep(&mut parts, points, |opposite, points| {
+            let from = face.position(points[0].slave);
             !own.end_above((from, normal), -opposite.part.distance, reach.of_shells())
-        };
-        let kept: Vec<bool> = parts.iter().map(is_reached).collect();
-        keep(&mut parts, points, &kept);
-        let kept = nearest_layer(&parts, reach.layer);
-        keep(&mut parts, points, &kept);
+        });
+        let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
+        let most = distances.fold(f64::INFINITY, f64::min) + reach.layer;
+        keep(&mut parts, points, |opposite, _| opposite.part.distance.abs() <= most);
         let share = |parts: &[Opposite<'_>]| parts.iter().map(|part| part.part.share).sum::<f64>();
         if share(&parts) > 1.0 + SAME_COVER {
             let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
@@ -132,11 +131,14 @@ impl<'a> Search<'a> {
             );
             return Err(slave.refuse(at, &what));
         }
-        let most = UPON * face.size();
-        let kept = one_surface(&parts, |a, b| {
-            a.part.joins(&b.part, most) && candidates.are_of_one_surface([a.at, b.at])
-        });
-        keep(&mut parts, points, &kept);
+        let step = UPON * face.size();
+        let joins = |a: &Opposite<'_>, b: &Opposite<'_>| {
+            a.part.joins(&b.part, step) && candidates.are_of_one_surface([a.at, b.at])
+        };
+        if parts.windows(2).any(|two| !joins(&two[0], &two[1])) {
+            let mut kept = one_surface(&parts, joins).into_iter();
+            keep(&mut parts, points, |_, _| kept.next() == Some(true));
+        }
         let is_off_axis = !planes.touch_axis(face);
         if parts.is_empty() {
             return Ok((None, is_off_axis));
@@ -185,26 +187,25 @@ impl<'a> Search<'a> {
 }
 
 /// Keeps some of the parts, with their points.
-fn keep(parts: &mut Vec<Opposite<'_>>, points: &mut Vec<Meeting>, kept: &[bool]) {
-    if kept.iter().all(|kept| *kept) {
-        return;
-    }
-    let (all, mut kept) = (std::mem::take(points), kept.iter());
+fn keep(
+    parts: &mut Vec<Opposite<'_>>,
+    points: &mut Vec<Meeting>,
+    mut keeps: impl FnMut(&Opposite<'_>, &[Meeting]) -> bool,
+) {
+    let mut end = 0;
     parts.retain_mut(|opposite| {
-        let (first, keeps) = (points.len(), kept.next() == Some(&true));
-        if keeps {
-            points.extend(&all[opposite.points.clone()]);
-            opposite.points = first..points.len();
+        let own = opposite.points.clone();
+        let is_kept = keeps(opposite, &points[own.clone()]);
+        if is_kept {
+            opposite.points = end..end + own.len();
+            if own.start > end {
+                points.copy_within(own, end);
+            }
+            end = opposite.points.end;
         }
-        keeps
+        is_kept
     });
-}
-
-/// The parts that are no further away than the nearest one by more than a layer.
-fn nearest_layer(parts: &[Opposite<'_>], layer: f64) -> Vec<bool> {
-    let distances = || parts.iter().map(|opposite| opposite.part.distance.abs());
-    let most = distances().fold(f64::INFINITY, f64::min) + layer;
-    distances().map(|distance| distance <= most).collect()
+    points.truncate(end);
 }
 
 /// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between

@@ -202,6 +202,9 @@ class Pairs(unittest.TestCase):
         np.testing.assert_allclose(contact.gaps, across * np.sqrt(0.5) + 1)
         contact = signorini.pair_obstacle(nodes, face, signorini.Torus([0, 0, 0], [0, 0, 7], 0.5, 4.0))
         np.testing.assert_allclose(contact.gaps, 4 - across - 0.5)
+        for ring in (0.0, -4.0):
+            with self.assertRaisesRegex(ValueError, "give a positive radius"):
+                signorini.pair_obstacle(nodes, face, signorini.Torus([0, 0, 0], [0, 0, 7], 0.5, ring))
 
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)
