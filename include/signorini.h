@@ -122,11 +122,11 @@ typedef struct signorini_extra signorini_extra;
  * @param dim       space dimension, 2 or 3
  * @param pairs     number of contact pairs, 0 allowed
  * @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
- *                  symmetric to 1e-9 of the diagonal, positive semi-definite: signorini_solve
- *                  checks a part of this, a model all. A row of zeros is a component that nothing
- *                  resists. A component that you hold fixed keeps its row: zero off the diagonal,
- *                  positive on it, zero load. If the body can move freely and touches at two or
- *                  three points, use a model
+ *                  symmetric to 1e-9 of the diagonal, positive semi-definite, not zero:
+ *                  signorini_solve checks a part of this, a model all. A row of zeros is a
+ *                  component that nothing resists. A component that you hold fixed keeps its
+ *                  row: zero off the diagonal, positive on it, zero load. If the body can move
+ *                  freely and touches at two or three points, use a model
  * @param ldk       entries from one column of K to the next, at least max(1, N)
  * @param f         condensed nodal loads, N; force
  * @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact
@@ -247,8 +247,9 @@ struct signorini_equations {
  * degrees of freedom.
  *
  * A node may stand in any number of pairs, as slave and master, and be fixed. Where a pair is held
- * along its normal or a tangent, d and F are zero there. Pairs may depend on each other, as
- * those of a node on two planes: then contact forces are not unique.
+ * along its normal or a tangent, d and F are zero there, and prescribed values that move it are
+ * refused. Pairs may depend on each other, as those of a node on two planes: then contact forces
+ * are not unique.
  */
 struct signorini_pairs {
     uint32_t struct_size;                 /**< sizeof(signorini_pairs). */
@@ -811,8 +812,8 @@ typedef int32_t (*signorini_held_fn)(void *user, const int32_t *held, int32_t ch
  * and springs. No accuracy is asked, nor that it is linear or symmetric: one cycle of multigrid
  * serves. held has N entries, nonzero where held; r and z do not count there. springs are to be
  * added to A between the tangential components of each pair: force / length, one number for each
- * pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is as
- * in signorini_held_fn, for springs too. Returns as signorini_product_fn.
+ * pair in 2D, in 3D four, a symmetric, positive semi-definite matrix; those of held components do
+ * not count. changed is as in signorini_held_fn, for springs too. Returns as signorini_product_fn.
  */
 typedef int32_t (*signorini_precondition_fn)(void *user, const int32_t *held, const double *springs,
                                              int32_t changed, const double *r, double *z);

@@ -36,8 +36,8 @@ pub type SignoriniHeldFn = Option<
 /// and springs. No accuracy is asked, nor that it is linear or symmetric: one cycle of multigrid
 /// serves. held has N entries, nonzero where held; r and z do not count there. springs are to be
 /// added to A between the tangential components of each pair: force / length, one number for each
-/// pair in 2D, in 3D four, a symmetric matrix; those of held components do not count. changed is as
-/// in signorini_held_fn, for springs too. Returns as signorini_product_fn.
+/// pair in 2D, in 3D four, a symmetric, positive semi-definite matrix; those of held components do
+/// not count. changed is as in signorini_held_fn, for springs too. Returns as signorini_product_fn.
 pub type SignoriniPreconditionFn = Option<
     unsafe extern "C" fn(
         user: *mut c_void,

@@ -17,8 +17,9 @@ use crate::reduce::{ContactPairs, Equations};
 /// degrees of freedom.
 ///
 /// A node may stand in any number of pairs, as slave and master, and be fixed. Where a pair is held
-/// along its normal or a tangent, d and F are zero there. Pairs may depend on each other, as
-/// those of a node on two planes: then contact forces are not unique.
+/// along its normal or a tangent, d and F are zero there, and prescribed values that move it are
+/// refused. Pairs may depend on each other, as those of a node on two planes: then contact forces
+/// are not unique.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SignoriniPairs {

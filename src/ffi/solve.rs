@@ -19,11 +19,11 @@ use crate::solve::{Status, memory, memory_of_ties, solve, solve_lcp};
 /// @param dim       space dimension, 2 or 3
 /// @param pairs     number of contact pairs, 0 allowed
 /// @param K         condensed stiffness, N columns of N entries, both triangles; force / length;
-///                  symmetric to 1e-9 of the diagonal, positive semi-definite: signorini_solve
-///                  checks a part of this, a model all. A row of zeros is a component that nothing
-///                  resists. A component that you hold fixed keeps its row: zero off the diagonal,
-///                  positive on it, zero load. If the body can move freely and touches at two or
-///                  three points, use a model
+///                  symmetric to 1e-9 of the diagonal, positive semi-definite, not zero:
+///                  signorini_solve checks a part of this, a model all. A row of zeros is a
+///                  component that nothing resists. A component that you hold fixed keeps its
+///                  row: zero off the diagonal, positive on it, zero load. If the body can move
+///                  freely and touches at two or three points, use a model
 /// @param ldk       entries from one column of K to the next, at least max(1, N)
 /// @param f         condensed nodal loads, N; force
 /// @param gap       initial gap of each pair; length; negative: interference; +infinity: no contact

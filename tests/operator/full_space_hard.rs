@@ -4,6 +4,7 @@
 //! Theory: with a definite stiffness there is a solution for all coefficients, loads, gaps and previous slips, so that
 //! there is no share of failures that would be right; what is counted as solved is certified.
 
+use crate::common::dense::{difference, largest};
 use crate::common::measures::{eta, rounding};
 use crate::common::mesh::Stiffness;
 use crate::common::plane_families::{SUPPORTS, Structure};
@@ -151,6 +152,35 @@ fn random_stiffness() {
                 assert_eq!(count.full, count.all, "problems that are not solved");
             }
         }
+    }
+}
+
+/// The collinear rule turns a slip by a matrix that is not symmetric, and whose symmetric part is indefinite where axes
+/// are far apart. A definite stiffness has a solution; at condition 10 no second one is met, so that both forms
+/// have the same forces. Both are certified to 1e-10 of the loads, which this condition may make ten times as much.
+#[test]
+fn collinear_slips_have_the_forces_of_the_condensed_form() {
+    for seed in 0..300 {
+        let rng = &mut Rng::with_seed(seed);
+        let pairs = rng.usize(1..=3);
+        let k = definite(rng, 3 * pairs, 10.0);
+        let axis = |rng: &mut Rng| uniform(rng, 0.05_f64.ln(), 0.0).exp();
+        let own = |_| [axis(rng), axis(rng), uniform(rng, -4.0, 4.0)];
+        let friction: Vec<f64> = (0..pairs).flat_map(own).collect();
+        let mut problem = loaded(rng, 3, k, Law::Collinear(friction));
+        problem.f.iter_mut().step_by(3).for_each(|press| *press += 2.0);
+        let case = LoadCase {
+            load: &problem.f,
+            prescribed: None,
+            gap: &problem.gap,
+            law: problem.law.friction(),
+            reference_slip: problem.slip.as_deref(),
+        };
+        let [dense, full] = [false, true].map(|f| solved(3, &problem.k, &case, f));
+        assert_eq!(full.status, Status::Solved, "seed {seed}: {}", full.message);
+        let (a, b) = (&full.certificate.force, &dense.certificate.force);
+        let (apart, size) = (largest(&difference(a, b)), largest(b).max(largest(&problem.f)));
+        assert!(apart <= 1e-9 * size, "seed {seed}: {:e}", apart / size);
     }
 }
 

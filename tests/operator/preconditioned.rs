@@ -72,6 +72,9 @@ impl PreconditionedOperator for Host {
         let mut last = self.last.lock().unwrap();
         assert_eq!(held.changed, last.as_ref() != Some(&now), "what is said to have changed");
         self.asked.fetch_add(1, Relaxed);
+        if held.springs.len() > held.components.len() {
+            held.springs.chunks_exact(4).for_each(assert_semidefinite);
+        }
         match self.wrong {
             Wrong::Fails => return Err(42),
             Wrong::NotFinite => z.fill(f64::NAN),
@@ -99,6 +102,14 @@ impl PreconditionedOperator for Host {
         }
         Ok(())
     }
+}
+
+/// The springs of a pair in space, a few roundings aside: the eigenvalues of a matrix of two rows are not negative if
+/// its trace and its determinant are not.
+fn assert_semidefinite(springs: &[f64]) {
+    let &[a, b, other, c] = springs else { unreachable!("four numbers") };
+    assert_eq!(b, other, "symmetric");
+    assert!(a + c >= 0.0 && a * c - b * b >= -8.0 * f64::EPSILON * (a + c).powi(2), "{springs:?}");
 }
 
 /// A load case with its two models.
@@ -274,6 +285,17 @@ fn a_bad_preconditioner_gives_the_answers_of_the_condensed_matrix() {
             problem.check(FrictionLaw::Coulomb(&mu), &slip, &format!("{name}, mu {}", mu[0]));
         }
     }
+}
+
+/// The springs that the host is handed are positive semi-definite, also under the collinear rule, whose slope is not
+/// symmetric: [`Host::precondition`] asserts it.
+#[test]
+fn collinear_slips_are_those_of_the_condensed_matrix() {
+    let problem = Problem::space(4);
+    let pairs = problem.gap.len();
+    let numbers: Vec<f64> = (0..pairs).flat_map(|j| [0.1, 0.4, 0.7 * (j % 5) as f64]).collect();
+    let law = FrictionLaw::OrthotropicCollinear(&numbers);
+    problem.check(law, &vec![0.0; 2 * pairs], "collinear");
 }
 
 /// Every third pair tied, with a slip of its own.

@@ -77,7 +77,7 @@ impl<'a> System<'a> {
             let pair = law.linearised(piece, y);
             (0..dim).for_each(|c| held_set.held[dim * at + c] = !pair.moves(c));
             if pair.slips && bodies.is_sparse() {
-                held_set.springs[at] = symmetric(&pair.curvature());
+                held_set.springs[at] = springs(&pair.curvature());
             }
             pairs.push(pair);
         }
@@ -305,10 +305,19 @@ pub fn changed(a: &HeldSet, b: &HeldSet) -> usize {
     pairs.filter(|(a, b)| a != b).count()
 }
 
-/// The symmetric part; curvatures of associated laws are symmetric.
-fn symmetric(plane: &Plane) -> Plane {
+/// The springs of a curvature: its symmetric part with negative eigenvalues set to zero. The curvature of an associated
+/// law is that itself; that of a collinear law is not symmetric, and its symmetric part is indefinite where the slip
+/// turns: no factor may exist with it.
+fn springs(plane: &Plane) -> Plane {
+    let [[a, _], [_, c]] = *plane;
     let across = (plane[0][1] + plane[1][0]) / 2.0;
-    [[plane[0][0], across], [across, plane[1][1]]]
+    let (middle, radius) = ((a + c) / 2.0, ((a - c) / 2.0).hypot(across));
+    let (least, largest) = (middle - radius, middle + radius);
+    if least >= 0.0 {
+        return [[a, across], [across, c]];
+    }
+    let part = largest.max(0.0) / (2.0 * radius);
+    [[part * (a - least), part * across], [part * across, part * (c - least)]]
 }
 
 /// The tangential components of a pair's part of a vector; the second is 0 in the plane.
