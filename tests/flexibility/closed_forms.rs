@@ -6,8 +6,8 @@ use crate::common::flexible::{Case, gram};
 use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
 use signorini::{
-    ContactData, ContactProblem, FlexibilityProblem, FrictionLaw, Monitor, Settings, State, Status,
-    Uniqueness, solve, solve_flexibility,
+    ContactData, ContactProblem, FlexibilityProblem, FrictionLaw, Method, Monitor, Settings, State,
+    Status, Uniqueness, solve, solve_flexibility,
 };
 
 /// The flexibility of a node on springs of stiffness 2 along each axis against planes with these outward
@@ -65,6 +65,34 @@ fn definite_flexibility_has_the_solution_of_the_stiffness_form() {
         }
     }
     assert!(compared >= 30, "{compared}");
+}
+
+/// Sweeps at the smallest tolerance end at their rounding, by friction of 20. The sentence does not blame pairs that depend
+/// on each other: the eigenvalues of `W` are between 1e-2 and 1, so that none does.
+#[test]
+fn definite_flexibility_is_not_said_to_have_dependent_pairs() {
+    let mut stalled = 0;
+    for seed in 0..100 {
+        let rng = &mut Rng::with_seed(seed);
+        let pairs = rng.usize(3..10);
+        let mut q = vector(rng, 2 * pairs);
+        q.iter_mut().step_by(2).for_each(|press| *press += 2.0);
+        let case = Case::new(2, definite(rng, 2 * pairs, 100.0), q, 20.0);
+        let problem = FlexibilityProblem::from_flexibility(case.data()).expect("valid data");
+        let method = Method::SorNested;
+        let settings = Settings { method, tolerance: 1e-15, ..Settings::default() };
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = solve_flexibility(&problem, &settings, None, monitor).expect("valid data");
+        let message = solution.message.to_string();
+        assert!(!message.contains("depend on each other"), "{seed}: {message}");
+        if message.contains("settle") {
+            let eta = solution.certificate.eta;
+            let wanted = format!("no solution was found: forces do not settle (eta is {eta:.1e})");
+            assert_eq!(message.split("; remark").next(), Some(&wanted[..]), "{seed}");
+            stalled += 1;
+        }
+    }
+    assert!(stalled > 0);
 }
 
 /// A rigid block of mass 2 and inertia 3 in the plane on five feet, for a step in which its weight would give
@@ -267,6 +295,36 @@ fn random_flexibilities_of_low_rank_are_solved() {
         redundant += usize::from(solution.certificate.count(State::Open) * dim + rank < n);
     }
     assert!(redundant > 40, "{redundant}");
+}
+
+/// The last pair is at a wall that nothing moves, 0.2 beyond its gap: a unit of force on it moves nothing and proves that
+/// no displacement keeps the gap, whatever the other pairs do. Nearer than its gap it is open.
+#[test]
+fn a_wall_beyond_its_gap_is_proved_to_be() {
+    let rng = &mut Rng::with_seed(5);
+    for round in 0..60 {
+        let (pairs, mu) = (rng.usize(1..=4), [0.0, 0.3][round % 2]);
+        let (own, n) = (2 * pairs, 2 * pairs + 2);
+        let free = definite(rng, own, 10.0);
+        let mut w = vec![0.0; n * n];
+        for i in 0..own * own {
+            w[i % own + n * (i / own)] = free[i];
+        }
+        w[n * n - 1] = f64::from(u8::from(round % 3 == 0));
+        let mut case = Case::new(2, w, vector(rng, n), mu);
+        case.q[own] = 0.3;
+        case.gap[pairs] = 0.1;
+        let solution = case.solve();
+        assert_eq!(solution.status, Status::NoEquilibrium, "{round}: {}", solution.message);
+        let named = format!("no solution exists: the gaps of pairs {pairs} contradict each other");
+        assert!(solution.message.starts_with(&named), "{round}: {}", solution.message);
+        let mut proof = vec![0.0; n];
+        proof[own] = -1.0;
+        assert_eq!(solution.recession, Some(proof), "{round}");
+        case.gap[pairs] = 0.4;
+        let solution = case.solve();
+        assert_eq!(solution.status, Status::Solved, "{round}: {}", solution.message);
+    }
 }
 
 /// Each pair twice: displacements and the sum of the forces are those of the single problem, and the copies

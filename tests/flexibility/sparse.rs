@@ -177,6 +177,46 @@ fn islands_with_full_rank_have_the_forces_of_the_dense_form() {
     }
 }
 
+/// Forces at which the load is taken away. Where `W` is definite none are left without friction, and with friction where
+/// no pair has slipped before: `F . d` of a pair is never positive then, while their sum is `F . W F`.
+#[test]
+fn unloaded_islands_have_no_forces() {
+    let rng = &mut Rng::with_seed(11);
+    let mut from_forces = 0;
+    for round in 0..200 {
+        let dim = 2 + round % 2;
+        let pairs = rng.usize(1..=6);
+        let mut loaded = full(rng, dim, pairs, 0.3);
+        loaded.gap.fill(0.0);
+        if round % 4 < 2 {
+            loaded.mu.fill(0.0);
+        } else {
+            loaded.slip0.fill(0.0);
+        }
+        let start = loaded.solve().certificate.force;
+        from_forces += usize::from(largest(&start) > 0.0);
+        let other = full(rng, dim, 2, 0.0);
+        let unloaded = Case { q: vec![0.0; dim * pairs], ..loaded };
+        let settings = Settings::default();
+        let monitor = &mut Monitor::new(&settings, None);
+        let dense = FlexibilityProblem::from_flexibility(unloaded.data()).expect("valid data");
+        let dense = solve_flexibility(&dense, &settings, Some(&start), monitor);
+        let sparse = solve_by(&unloaded, &settings, Some(&start));
+        // Beside an island that stays loaded.
+        let order: Vec<usize> = (0..pairs + 2).collect();
+        let both = together(&[unloaded, other], &order);
+        let begin = [start, vec![0.0; 2 * dim]].concat();
+        let beside = solve_by(&both, &settings, Some(&begin));
+        for solution in [dense, sparse, beside].map(|solution| solution.expect("valid data")) {
+            assert_eq!(solution.status, Status::Solved, "{round}: {}", solution.message);
+            let forces = &solution.certificate.force[..dim * pairs];
+            // Newton's method may halve a force until it underflows.
+            assert!(largest(forces) < f64::MIN_POSITIVE, "{round}: {:e}", largest(forces));
+        }
+    }
+    assert!(from_forces >= 150, "{from_forces}");
+}
+
 /// A definite `W` has a solution with any friction (Brouwer's theorem on the thresholds, which stay bounded), and of a pair
 /// alone each is found, also where `W` ties its tangents to its normal so that it wedges.
 #[test]

@@ -18,11 +18,12 @@
 
 use super::compliant::{Springs, is_definite, is_indefinite};
 use super::drawn::drawn;
+use super::growth::sentence;
 use super::on_flexibility::{LawPoint, OnFlexibility};
 use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
 use super::step::ended;
 use crate::error::{Argument, Error};
-use crate::law::{Contact, pressing};
+use crate::law::{Contact, exceed_gaps, pressing};
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
@@ -30,9 +31,9 @@ use crate::settings::{Method, Settings};
 use crate::solve::newton::NewtonOutcome;
 use crate::solve::result::{Ending, Solution, Solve, Status};
 
-/// The sentence on a `W` that the first springs make definite.
-const INDEFINITE: &str = "no solution was found: W is not positive semi-definite, its negative eigenvalues are \
-                          larger than rounding";
+/// The cause where the first springs make `W` definite.
+const INDEFINITE: &str =
+    "W is not positive semi-definite, its negative eigenvalues are larger than rounding, and ";
 
 /// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is, and `solve` solves
 /// each round.
@@ -50,6 +51,9 @@ pub fn solve(
         if solution.status != Status::Stalled {
             return Ok(solution);
         }
+        if let Some(rest) = at_rest(contact, settings, &solution) {
+            return Ok(rest);
+        }
     }
     let with_start = (settings, start);
     let (found, proof) =
@@ -64,26 +68,71 @@ pub fn solve(
             Ok(if again.solution.status == Status::Stalled { found } else { again })
         })?;
     let RoundsFound { mut solution, pattern } = found;
-    if let Some(mut forces) = proof {
-        forces = pressing(problem.dim(), &forces);
+    if solution.status != Status::Stalled {
+        return Ok(solution);
+    }
+    if let Some(rest) = at_rest(contact, settings, &solution) {
+        return Ok(rest);
+    }
+    let eta = solution.certificate.eta;
+    if let Some(proof) = proof.or_else(|| at_a_wall(problem)) {
+        solution.message = sentence(problem, Some(&proof), true, eta, number).into();
+        let mut forces = pressing(problem.dim(), &proof);
         normalise(&mut forces);
         solution.status = Status::NoEquilibrium;
         solution.recession = Some(forces);
-    } else if solution.status == Status::Stalled
-        && pattern.is_none()
-        && is_indefinite(problem.relation(), monitor)
-    {
-        let eta = solution.certificate.eta;
-        solution.message =
-            format!("{INDEFINITE}, and forces do not settle (eta is {eta:.1e})").into();
+        return Ok(solution);
     }
-    if solution.status == Status::Stalled
-        && settings.method == Method::Auto
+    if pattern.is_none()
+        && let Some(cause) = cause(problem.relation(), monitor)
+    {
+        let said = format!("no solution was found: {cause}forces do not settle (eta is {eta:.1e})");
+        solution.message = said.into();
+    }
+    if settings.method == Method::Auto
         && let Some(found) = drawn(contact, settings, &force, monitor)
     {
         return Ok(found);
     }
     Ok(solution)
+}
+
+/// Why forces do not settle, of a definite `W` nothing. `None`: the pairs depend on each other, as the sentence of the
+/// rounds says.
+fn cause(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Option<&'static str> {
+    if is_definite(relation, monitor) {
+        return Some("");
+    }
+    is_indefinite(relation, monitor).then_some(INDEFINITE)
+}
+
+/// No forces, if they are the solution where a method has `stalled`. Without loads `eta` is relative to the forces
+/// themselves, and no iterate gets below their rounding.
+fn at_rest(
+    contact: &Contact<'_, Flexibility<'_>>,
+    settings: &Settings,
+    stalled: &Solution,
+) -> Option<Solution> {
+    if !contact.is_unloaded() {
+        return None;
+    }
+    let zero = vec![0.0; contact.unknowns()];
+    let how = (stalled.method, &Ending::Done, stalled.factorisations);
+    let rest = ended(contact, (zero.clone(), &zero), settings, how);
+    (rest.status == Status::Solved).then_some(rest)
+}
+
+/// The force on a pair that nothing moves along its normal, and whose free displacement exceeds its gap: it proves that
+/// there is no solution. Beside other pairs that do not settle, rounds do not find it.
+fn at_a_wall(problem: &FlexibilityProblem<'_>) -> Option<Vec<f64>> {
+    let (dim, relation) = (problem.dim(), problem.relation());
+    let normals = (0..problem.unknowns()).step_by(dim);
+    let mut walls = normals.filter(|&n| relation.matrix().at(n, n) == 0.0);
+    walls.find_map(|n| {
+        let mut forces = vec![0.0; problem.unknowns()];
+        forces[n] = -1.0;
+        exceed_gaps(problem, &forces, relation.free).then_some(forces)
+    })
 }
 
 /// What Newton's method makes of a definite `W` from contact forces `force`; `None` where `W` is not definite, another
