@@ -405,6 +405,35 @@ fn ties_on_a_matrix_that_is_not_symmetric() {
     }
 }
 
+/// The sentence of a problem that is not solved has the measure of the report: that of the whole, to whose forces the
+/// tie that moves the bodies adds its own, and not that of the other pair.
+#[test]
+fn sentences_have_the_measure_of_the_whole() {
+    let k = [4.0, 1.0, -1.0, 0.0, 1.0, 4.0, 0.0, -1.0, -1.0, 0.0, 4.0, 1.0, 0.0, -1.0, 1.0, 4.0];
+    for gap in [0.0, 0.5, 1.0, 2.0] {
+        let gaps = [0.0, gap];
+        let numbers = [[1.0, 0.3, 0.0, 0.0], TIED].concat();
+        let problem = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: 2,
+            stiffness: &k,
+            ld: 4,
+            load: &[2.0, 1.5, 3.0, 0.5],
+            gap: &gaps,
+            law: FrictionLaw::ByPair(&numbers),
+            reference_slip: None,
+        });
+        let settings = Settings { max_iterations: 3, ..settings(Method::SorNested) };
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = solve(&problem.unwrap(), &settings, None, monitor).unwrap();
+        let wanted = format!(
+            "max_iterations (3) used up; eta is {:.1e}, wanted 1.0e-12",
+            solution.certificate.eta
+        );
+        assert_eq!(solution.message.to_string(), wanted, "{gap}");
+    }
+}
+
 /// The first of the pairs asked for that is tied across a gap, or across an interference, with that gap. A gap of 0 is closed,
 /// a pair without an obstacle is free, and nothing is told of a law whose numbers are not all there.
 #[test]

@@ -153,7 +153,12 @@ impl Others {
             Status::NoEquilibrium => (found.status, found.message),
             Status::Solved => told(&at.ending, settings, &certificate),
             _ if holds => told(&Ending::Done, settings, &certificate),
-            _ => (found.status, found.message),
+            // The sentence of the others, with the measure of the whole.
+            _ => {
+                let measured = |by: &Certificate| format!("eta is {:.1e}", by.eta);
+                let (others, whole) = (measured(&found.certificate), measured(&certificate));
+                (found.status, found.message.marked().replace(&others, &whole).into())
+            }
         };
         let mut solution = Solution {
             status,
