@@ -159,6 +159,19 @@ pub(crate) fn entry<const N: usize>(array: &str, indices: [impl fmt::Display; N]
     format!("{array}{BEGIN}[{indices}]{END}")
 }
 
+/// Sizes that a sentence writes without an exponent.
+const IN_DECIMALS: std::ops::Range<f64> = 1e-5..1e15;
+
+/// A number for a sentence: `0.3`, `-1e300`.
+pub(crate) fn number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || IN_DECIMALS.contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// A sentence that can be told in the counting of C or of Fortran.
 ///
 /// As a `str` and printed it counts from 0.

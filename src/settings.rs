@@ -1,6 +1,6 @@
 //! How to solve: method, accuracy, budgets.
 
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, number};
 
 /// The algorithm to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,13 +102,13 @@ impl Settings {
         if !(0.0..2.0).contains(&self.omega) {
             return refuse(format!(
                 "settings: omega is {}, it must be 0 (chosen) or lie between 0 and 2",
-                self.omega
+                number(self.omega)
             ));
         }
         if !(0.0..=1.0).contains(&self.damping) {
             return refuse(format!(
                 "settings: damping is {}, it must be 0 (chosen) or lie in (0, 1]",
-                self.damping
+                number(self.damping)
             ));
         }
         if self.max_iterations == 0 {
@@ -117,7 +117,7 @@ impl Settings {
         if !(self.time_limit >= 0.0) {
             return refuse(format!(
                 "settings: time_limit is {}, it must be 0 (none) or a number of seconds",
-                self.time_limit
+                number(self.time_limit)
             ));
         }
         Ok(())

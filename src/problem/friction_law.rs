@@ -1,7 +1,7 @@
 //! The friction laws with their parameters, as the host gives them.
 
 use super::law_table::{Law, Parameter};
-use crate::error::{Argument, Error, entry, index};
+use crate::error::{Argument, Error, entry, index, number};
 
 /// The friction law of all pairs, or that of each, with the parameters pair by pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,11 +172,11 @@ impl<'a> FrictionLaw<'a> {
                 }
                 Parameter::OwnLaw if Law::of_number(value).is_none() => Law::numbers_in_words(),
                 Parameter::OfOwnLaw if value != 0.0 => {
-                    format!("be 0: the pair has {}, of {} parameters", law.title(), own.len())
+                    format!("be 0: the pair has {}, and no more parameters", law.title())
                 }
                 _ => continue,
             };
-            return Err((k, format!(" is {value}, it must {must}")));
+            return Err((k, format!(" is {}, it must {must}", number(value))));
         }
         let shifted = |(k, what)| Err((self.numbers_before() + k, what));
         (law.statement().check)(own).map_or(Ok(()), shifted)

@@ -1,5 +1,6 @@
 //! The table of the friction laws: their names, their parameters, and what is said of each.
 
+use crate::error::number;
 use crate::linalg::tolerances::FEW_OPERATIONS;
 
 /// A friction law without its parameters. Its place is its number in the C interface.
@@ -131,6 +132,7 @@ fn cohesion(numbers: &[f64]) -> Option<(usize, String)> {
     // The host has rounded a product: half of what ten operations leave.
     let rounding = least * (FEW_OPERATIONS / 2.0);
     (b < least - rounding).then(|| {
+        let [mu, b, a, least] = [mu, b, a, least].map(number);
         let what = format!(
             " is {b}, it must be at least mu a = {mu} * {a} = {least}: friction would be negative under \
              the tension a"

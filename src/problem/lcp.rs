@@ -1,7 +1,7 @@
 //! The linear complementarity problem (LCP) `w = q + M z`, `w >= 0`, `z >= 0`, `w . z = 0`.
 
 use super::arguments::{OF_MATRIX, check_finite, check_finite_matrix, check_length, dense};
-use crate::error::{Argument, Error, entry};
+use crate::error::{Argument, Error, entry, number};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::power_of_two::{
     dot_in_own_unit, exponent, largest_exponent, times_power_of_two,
@@ -43,8 +43,8 @@ impl<'a> Lcp<'a> {
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
-            let message =
-                format!("{} is {}, it must be positive", entry("cover", [i]), covering[i]);
+            let value = number(covering[i]);
+            let message = format!("{} is {value}, it must be positive", entry("cover", [i]));
             return Err(Error::invalid(Argument::Covering, message));
         }
         Ok(lcp)

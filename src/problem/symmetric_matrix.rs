@@ -1,7 +1,7 @@
 //! Validation of a host's dense symmetric matrix.
 
 use super::arguments::{Named, check_finite_matrix};
-use crate::error::{Error, entry, index};
+use crate::error::{Error, entry, index, number};
 use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::{Matrix, tiles};
 use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
@@ -84,7 +84,9 @@ fn check_across(
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
             format!(
-                "{name} is not symmetric: {below} is {lower}, {above} is {upper}: {}",
+                "{name} is not symmetric: {below} is {}, {above} is {}: {}",
+                number(lower),
+                number(upper),
                 difference(apart / scale, &remedy)
             )
         } else if lower.abs() > (1.0 + AGREES) * scale {
@@ -106,7 +108,9 @@ pub(crate) fn beyond_diagonal(
 ) -> String {
     let place = entry(name, [i, j]);
     format!(
-        "{name} is not positive semi-definite: {place} is {value}, more than its diagonal allows ({scale})"
+        "{name} is not positive semi-definite: {place} is {}, more than its diagonal allows ({})",
+        number(value),
+        number(scale)
     )
 }
 
@@ -167,7 +171,7 @@ fn check_columns(
     for j in 0..matrix.size() {
         let column = matrix.column(j);
         if root[j].is_nan() {
-            return refuse(format!("{} is {}, it must be positive", at(j, j), column[j]));
+            return refuse(format!("{} is {}, it must be positive", at(j, j), number(column[j])));
         }
         let is_too_large = |i: &usize| column[*i].abs() > (1.0 + AGREES) * root[*i] * root[j];
         if column[j] == 0.0
@@ -177,7 +181,7 @@ fn check_columns(
                 "{} is 0, it must be positive: {} is {}",
                 at(j, j),
                 at(i, j),
-                column[i]
+                number(column[i])
             ));
         }
     }

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::Reduction;
 use super::probes::{called, check_units, checked_images, measured_units, probe, refuse};
-use crate::error::{Error, entry};
+use crate::error::{Error, entry, number};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
@@ -83,7 +83,8 @@ impl OperatorReduction {
         let agrees = operator.accuracy();
         // Written so that NaN is refused.
         if !(agrees > 0.0 && agrees < 1.0) {
-            return refuse(format!("accuracy is {agrees}, it must be between 0 and 1"));
+            let said = number(agrees);
+            return refuse(format!("accuracy is {said}, it must be between 0 and 1"));
         }
         let held = Mutex::new(Vec::new());
         let reduction = OperatorReduction { operator, units: vec![1.0; size], held };

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::equations::{Dependents, Equations, refuse};
 use super::frame::Frame;
-use crate::error::{Error, index};
+use crate::error::{Error, index, number};
 use crate::linalg::row_elimination::{Terms, gathered};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::{first_not_finite, norm_inf};
@@ -191,13 +191,15 @@ impl ContactPairs<'_> {
             }
             if !is(0.0) && !is(1.0) {
                 return refuse(format!(
-                    "pair {}: its signed weights sum to {sum}: they must sum to 0 between bodies, to 1 \
+                    "pair {}: its signed weights sum to {}: they must sum to 0 between bodies, to 1 \
                      against an obstacle",
-                    index(pair)
+                    index(pair),
+                    number(sum)
                 ));
             }
         } else if !weights.is_empty() && !is(1.0) {
-            return refuse(format!("pair {}: its weights sum to {sum}, not to 1", index(pair)));
+            let (pair, sum) = (index(pair), number(sum));
+            return refuse(format!("pair {pair}: its weights sum to {sum}, not to 1"));
         }
         Ok(())
     }

@@ -49,6 +49,42 @@ fn k_with(entries: &[(usize, usize, f64)]) -> Vec<f64> {
     k
 }
 
+/// The sentence on wrong data.
+fn said(data: ContactData<'_>) -> String {
+    ContactProblem::new(data).expect_err("it is wrong").message().to_string()
+}
+
+fn of_law(law: FrictionLaw<'_>) -> String {
+    said(ContactData { law, ..GOOD })
+}
+
+/// Numbers with an exponent where decimals would be many, so that the reason after them is told.
+#[test]
+fn numbers_in_sentences_are_short() {
+    for (mu, told) in [(-0.5, "-0.5"), (-1e300, "-1e300"), (-3e-310, "-3e-310"), (-1e15, "-1e15")] {
+        let message = of_law(FrictionLaw::Coulomb(&[mu, 0.3]));
+        assert_eq!(message, format!("mu[0] is {told}, it must not be negative"));
+    }
+    let stiffness = &k_with(&[(0, 0, -1e300)]);
+    let message = said(ContactData { stiffness, ..GOOD });
+    assert_eq!(message, "K[0,0] is -1e300, it must be positive");
+    assert_eq!(
+        of_law(FrictionLaw::Cohesive(&[0.5, 1e-320, 1e200].repeat(2))),
+        "friction[1] (b of pair 0) is 1e-320, it must be at least mu a = 0.5 * 1e200 = 5e199: friction \
+         would be negative under the tension a"
+    );
+    assert_eq!(
+        of_law(FrictionLaw::ByPair(&[1.0, 0.3, 0.2, 0.0].repeat(2))),
+        "friction[2] (p2 of pair 0) is 0.2, it must be 0: the pair has Coulomb's law: mu, and \
+         no more parameters"
+    );
+    let settings = Settings { time_limit: -1e-310, ..Settings::default() };
+    assert_eq!(
+        settings.validate().unwrap_err().message().to_string(),
+        "settings: time_limit is -1e-310, it must be 0 (none) or a number of seconds"
+    );
+}
+
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 #[test]

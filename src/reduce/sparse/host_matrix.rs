@@ -2,7 +2,7 @@
 
 use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
-use crate::error::{Error, entry};
+use crate::error::{Error, entry, number};
 use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
 use crate::linalg::tolerances::AGREES;
 use crate::reduce::probes::refuse;
@@ -150,7 +150,7 @@ fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> 
             Some(value) if value > 0.0 => {}
             Some(value) if value < 0.0 => {
                 let place = entry(name, [j, j]);
-                return refuse(format!("{place} is {value}, it must be positive"));
+                return refuse(format!("{place} is {}, it must be positive", number(value)));
             }
             _ => *without = true,
         }
@@ -163,10 +163,11 @@ fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> 
         for (&i, value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
             if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
                 return refuse(format!(
-                    "{} is {}, it must be positive: {} is {value}",
+                    "{} is {}, it must be positive: {} is {}",
                     entry(name, [dof, dof]),
                     is(dof),
-                    entry(name, [i, j])
+                    entry(name, [i, j]),
+                    number(*value)
                 ));
             }
         }

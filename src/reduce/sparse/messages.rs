@@ -2,7 +2,7 @@
 //! what to do.
 
 use super::host_arrays::{Indices, SparseMatrix};
-use crate::error::{entry, index};
+use crate::error::{entry, index, number};
 use crate::linalg::sparse_schur::Failure;
 use crate::problem::symmetric_matrix;
 use crate::reduce::motion;
@@ -99,6 +99,7 @@ pub(super) fn not_symmetric(
     let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
     let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
     let (lower, upper) = (entry(name, [i, j]), entry(name, [j, i]));
+    let (below, above) = (number(below), number(above));
     format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}")
 }
 

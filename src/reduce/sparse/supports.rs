@@ -1,7 +1,7 @@
 //! Supports at contact pairs: where the slave and what it faces are both fixed, a component of the
 //! relative displacement is zero.
 
-use crate::error::{Argument, Error, index};
+use crate::error::{Argument, Error, index, number};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::reduce::equations::Dependents;
 
@@ -59,8 +59,9 @@ impl FixedComponent {
         }
         let pair = index(self.pair);
         let message = format!(
-            "prescribed values move both sides of pair {pair} apart by {jump}, along an axis along \
-             which both are fixed: they must move alike"
+            "prescribed values move both sides of pair {pair} apart by {}, along an axis along which \
+             both are fixed: they must move alike",
+            number(jump)
         );
         Err(Error::invalid(Argument::Prescribed, message))
     }

@@ -2,7 +2,7 @@
 
 use super::solution::Status;
 use crate::certificate::Certificate;
-use crate::error::Error;
+use crate::error::{Error, number};
 use crate::monitor::Stop;
 use crate::settings::Settings;
 
@@ -93,7 +93,7 @@ impl Stop {
                 Status::TimeLimit,
                 format!(
                     "time_limit ({} s) used up, or too little left for the next step; {wanted}",
-                    settings.time_limit
+                    number(settings.time_limit)
                 ),
             ),
             Stop::Cancelled => {
