@@ -11,9 +11,6 @@ pub const BLOCK: usize = 64;
 /// Rows or columns of a part of a product, which a thread does at once: products of so many are fast.
 pub const SIDE: usize = 256;
 
-/// Numbers of a part of a matrix that a thread writes at once: it takes far longer than to hand the part out.
-const PART: usize = 1 << 14;
-
 /// Additions and multiplications between two questions: some ten milliseconds.
 pub const WORK: usize = 1 << 28;
 
@@ -74,7 +71,8 @@ pub fn fill_columns(
     goes_on: GoesOn<'_>,
 ) -> bool {
     let (work, is_long) = (reading(values.len()), values.len() > SHORT * SHORT);
-    let at_once = (PART / rows.max(1)).clamp(1, BLOCK);
+    // So many numbers take far longer than to hand the part out.
+    let at_once = (BLOCK * SIDE / rows.max(1)).clamp(1, BLOCK);
     let blocks = values.chunks_mut((rows * at_once).max(1)).enumerate();
     let fill = |(block, columns): (usize, &mut [f64])| {
         let columns = columns.chunks_exact_mut(rows).zip(at_once * block..);
