@@ -78,12 +78,29 @@ pub fn suspicious_pivot(weakest: f64) -> f64 {
     (GROWTH * f64::EPSILON / weakest).clamp(NEGLIGIBLE, SOFT)
 }
 
-/// `true` if the rounding of free motions is not negligible beside the matrix, so that it may pass for stiffness: the weakest
-/// pivot is small, or a component keeps little of its unit. A look at them costs nothing beside a factorisation. Other free
-/// motions have negligible pivots, which are found where the matrix is factorised.
-pub fn is_suspicious(weakest: f64, units: &[f64], diagonal: impl Fn(usize) -> f64) -> bool {
-    suspicious_pivot(weakest) > NEGLIGIBLE
-        || units.iter().enumerate().any(|(i, unit)| diagonal(i) <= SOFT * unit)
+/// The reason for which free motions of a condensed matrix are looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doubt {
+    /// A component keeps next to nothing of its unit: it must be told if a motion is free.
+    Pivots,
+    /// The weakest pivot is small, or a component keeps little of its unit, so that the rounding of free motions may pass for
+    /// stiffness. A host's matrix may itself be rounded to fewer digits, so that a motion cannot be told: it keeps the forces
+    /// that the whole has.
+    Rounding,
+}
+
+impl Doubt {
+    /// A look at pivots and the diagonal costs nothing beside a factorisation. Other free motions have negligible pivots, which
+    /// are found where the matrix is factorised: `None`.
+    pub fn of(weakest: f64, units: &[f64], diagonal: impl Fn(usize) -> f64) -> Option<Self> {
+        let keeps = |part: f64| units.iter().enumerate().all(|(i, unit)| diagonal(i) > part * unit);
+        match keeps(SUSPICIOUS_PIVOT) {
+            false => Some(Doubt::Pivots),
+            true => {
+                (suspicious_pivot(weakest) > NEGLIGIBLE || !keeps(SOFT)).then_some(Doubt::Rounding)
+            }
+        }
+    }
 }
 
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
@@ -91,7 +108,7 @@ pub fn is_suspicious(weakest: f64, units: &[f64], diagonal: impl Fn(usize) -> f6
 /// them are looked at. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
 pub fn settle(
     matrix: &mut [f64],
-    (units, least): (&[f64], f64),
+    (units, least, doubt): (&[f64], f64, Doubt),
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
 ) -> Result<bool, StiffnessDefect> {
@@ -110,14 +127,14 @@ pub fn settle(
         }
     };
     scale(matrix, |entry, roots| entry / roots);
-    let settled = settle_scaled(matrix, &factor, &root, whole, goes_on);
+    let settled = settle_scaled(matrix, (&factor, doubt), &root, whole, goes_on);
     scale(matrix, |entry, roots| entry * roots);
     settled
 }
 
 fn settle_scaled(
     matrix: &mut [f64],
-    factor: &PivotedCholesky,
+    (factor, doubt): (&PivotedCholesky, Doubt),
     root: &[f64],
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
@@ -130,15 +147,14 @@ fn settle_scaled(
     let mut free = Vec::new();
     for motion in motions {
         let (energy, noise) = (dot(&motion.whole, &motion.forces), whole.noise(&motion.whole));
-        if energy <= -HELD * noise {
-            return Err(StiffnessDefect::Indefinite(motion.whole));
-        }
-        if energy >= HELD * noise {
+        if energy.abs() <= FREE * noise {
+            free.push(motion.scaled);
+        } else if energy >= HELD * noise || doubt == Doubt::Rounding {
             let forces = &motion.forces[motion.forces.len() - size..];
             products.push(forces.iter().zip(root).map(|(force, root)| force / root).collect());
             basis.push(motion.scaled);
-        } else if energy.abs() <= FREE * noise {
-            free.push(motion.scaled);
+        } else if energy <= -HELD * noise {
+            return Err(StiffnessDefect::Indefinite(motion.whole));
         } else {
             return Err(StiffnessDefect::Unclear(motion.whole));
         }

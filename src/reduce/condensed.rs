@@ -2,7 +2,7 @@
 
 use super::Reduction;
 use crate::error::{Argument, Error};
-use crate::linalg::free_motions::{Whole, settle};
+use crate::linalg::free_motions::{Doubt, Whole, settle};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::{CONDENSATION, FREE};
 use crate::linalg::vector::first_not_finite;
@@ -82,7 +82,7 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Opt
         && is_symmetric_beside(matrix, &root);
     let given = HostMatrix { matrix: *matrix, units: &units };
     // A matrix that is not sound is refused by the check.
-    (is_sound && settle(&mut stiffness, (&units, 0.0), &given, goes_on) == Ok(true))
+    (is_sound && settle(&mut stiffness, (&units, 0.0, Doubt::Pivots), &given, goes_on) == Ok(true))
         .then_some(stiffness)
 }
 

@@ -6,7 +6,7 @@ use super::numeric::Numeric;
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::free_motions::{self, StiffnessDefect, Whole, is_suspicious, suspicious_pivot};
+use crate::linalg::free_motions::{self, Doubt, StiffnessDefect, Whole, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, sizes};
@@ -58,9 +58,13 @@ impl SparseSchur {
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
         let weakest = weakest.map_or(1.0, |(_, pivot)| pivot);
-        if always || m <= FEW || is_suspicious(weakest, &units, |i| found.schur[i + m * i]) {
+        let doubt = match always || m <= FEW {
+            true => Some(Doubt::Pivots),
+            false => Doubt::of(weakest, &units, |i| found.schur[i + m * i]),
+        };
+        if let Some(doubt) = doubt {
             let least = suspicious_pivot(weakest);
-            found.settle(lower, (&units, least), &mut || {
+            found.settle(lower, (&units, least, doubt), &mut || {
                 progress(FactorStep::HasDone(1.0)).is_ok()
             })?;
             progress(FactorStep::HasDone(1.0))?;
@@ -73,7 +77,7 @@ impl SparseSchur {
     fn settle(
         &mut self,
         lower: Csc,
-        units: (&[f64], f64),
+        units: (&[f64], f64, Doubt),
         goes_on: GoesOn<'_>,
     ) -> Result<(), StiffnessDefect> {
         let mut schur = std::mem::take(&mut self.schur);
