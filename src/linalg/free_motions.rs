@@ -105,7 +105,8 @@ impl Doubt {
 
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
 /// `units` are positive, of the size of the diagonal before anything was eliminated; motions with pivots up to `least` beside
-/// them are looked at. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
+/// them are looked at. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is
+/// settled.
 pub fn settle(
     matrix: &mut [f64],
     (units, least, doubt): (&[f64], f64, Doubt),
