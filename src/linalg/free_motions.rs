@@ -26,7 +26,7 @@
 use super::eigen::eigenvectors;
 use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
-use super::tolerances::{FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
+use super::tolerances::{CONDENSATION, FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
 use super::vector::{combination, dot, norm};
 use super::watched::GoesOn;
 
@@ -65,17 +65,14 @@ struct Motion {
     scaled: Vec<f64>,
 }
 
-/// Rounding leaves free motions energies of up to some hundred times the rounding of the weakest pivot (measured); this many
-/// times it are above all of them.
-const GROWTH: f64 = 1e4;
-
 /// A diagonal entry that keeps less of its unit is small beside the rounding of the condensation.
 const SOFT: f64 = 0.05;
 
 /// The energies beside units up to which rounding may pass for stiffness, where the weakest pivot of the eliminated components
-/// keeps such a part of its diagonal: a stiff body that soft ones alone hold has weak pivots.
+/// keeps such a part of its diagonal: a stiff body that soft ones alone hold has weak pivots. Free motions were left energies
+/// of up to some hundred times `2.2e-16` over that part (measured).
 pub fn suspicious_pivot(weakest: f64) -> f64 {
-    (GROWTH * f64::EPSILON / weakest).clamp(NEGLIGIBLE, SOFT)
+    (CONDENSATION / weakest).clamp(NEGLIGIBLE, SOFT)
 }
 
 /// The reason for which free motions of a condensed matrix are looked for.
@@ -91,14 +88,12 @@ pub enum Doubt {
 
 impl Doubt {
     /// A look at pivots and the diagonal costs nothing beside a factorisation. Other free motions have negligible pivots, which
-    /// are found where the matrix is factorised: `None`.
-    pub fn of(weakest: f64, units: &[f64], diagonal: impl Fn(usize) -> f64) -> Option<Self> {
+    /// are found where the matrix is factorised: `None`. `suspicious` is [`suspicious_pivot`] of the weakest one.
+    pub fn of(suspicious: f64, units: &[f64], diagonal: impl Fn(usize) -> f64) -> Option<Self> {
         let keeps = |part: f64| units.iter().enumerate().all(|(i, unit)| diagonal(i) > part * unit);
         match keeps(SUSPICIOUS_PIVOT) {
             false => Some(Doubt::Pivots),
-            true => {
-                (suspicious_pivot(weakest) > NEGLIGIBLE || !keeps(SOFT)).then_some(Doubt::Rounding)
-            }
+            true => (suspicious > NEGLIGIBLE || !keeps(SOFT)).then_some(Doubt::Rounding),
         }
     }
 }

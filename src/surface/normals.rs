@@ -4,14 +4,12 @@ use super::face::Face;
 use super::plane::Plane;
 use super::shape::{Local, MOST_NODES};
 use crate::error::{Argument, Error, index};
+use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, unit};
 
 /// Steps to the foot of a perpendicular. Each reduces the error by the distance over the radius of curvature; from
 /// half of that radius this many reach the last digits, and Newton's method needs fewer.
 pub(super) const MOST_STEPS: usize = 60;
-
-/// A change of the unit normal this small is rounding.
-const LAST: f64 = 1e-14;
 
 /// A sum of unit normals this small beside their number or area, or the rest of one that lies across a plane, has no
 /// direction of its own.
@@ -50,7 +48,7 @@ pub(super) fn foot(face: &Face<'_>, x: Vector3) -> Option<(Local, Vector3)> {
         let next = unit(face.outward(at))?;
         let change = (next - normal).norm();
         normal = next;
-        if change <= LAST {
+        if change <= ROUNDING {
             return Some((at, normal));
         }
     }

@@ -57,13 +57,12 @@ impl SparseSchur {
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
         let units: Vec<f64> =
             (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
-        let weakest = weakest.map_or(1.0, |(_, pivot)| pivot);
+        let least = suspicious_pivot(weakest.map_or(1.0, |(_, pivot)| pivot));
         let doubt = match always || m <= FEW {
             true => Some(Doubt::Pivots),
-            false => Doubt::of(weakest, &units, |i| found.schur[i + m * i]),
+            false => Doubt::of(least, &units, |i| found.schur[i + m * i]),
         };
         if let Some(doubt) = doubt {
-            let least = suspicious_pivot(weakest);
             found.settle(lower, (&units, least, doubt), &mut || {
                 progress(FactorStep::HasDone(1.0)).is_ok()
             })?;
