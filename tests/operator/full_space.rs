@@ -4,6 +4,7 @@ use crate::common::blocks::block;
 use crate::common::brick::{Support, Vector};
 use crate::common::dense::{difference, largest};
 use crate::common::mesh::{Mesh, Pairs, steps};
+use fastrand::Rng;
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 /// Settings of a model in full space.
@@ -129,5 +130,41 @@ fn blocks_have_the_same_answers_as_condensed() {
             );
             same(&a, &b, &context);
         }
+    }
+}
+
+/// Two blocks of very unlike stiffness, both held on their far sides, whose prescribed displacements and loads have the size that
+/// the softer one bears. The stiffness is definite, so that there is a solution for every law and all data; the forces inside the
+/// stiffer block are larger than the loads by as much, and rounding of displacements by as much as that.
+#[test]
+fn unlike_blocks_that_are_held_are_solved() {
+    let rng = &mut Rng::with_seed(1);
+    for problem in 0..200 {
+        let ratio = 10_f64.powi([6, -3, 5, -5][problem % 4]);
+        let mut mesh = Mesh::default();
+        let x = steps(0.0, 1.0, rng.usize(1..5));
+        let lower = mesh.block(&x, &steps(-1.0, 0.0, rng.usize(1..4)), (1.0, 0.3));
+        let upper = mesh.block(&x, &steps(0.0, 1.0, rng.usize(1..4)), (ratio, 0.3));
+        let held = [lower.row(0), upper.row(upper.rows)].concat();
+        let fixed: Vec<usize> = held.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect();
+        let mut random = |size: f64, count: usize| -> Vec<f64> {
+            (0..count).map(|_| size * (2.0 * rng.f64() - 1.0)).collect()
+        };
+        let (prescribed, load) = (random(0.01, fixed.len()), random(0.05, mesh.size()));
+        let pairs = Pairs::matching(&upper.row(0), &lower.row(lower.rows), [0.0, -1.0]);
+        let (gap, slip) = (random(0.02, pairs.count()), random(0.01, pairs.count()));
+        let mu: Vec<f64> = random(1.0, pairs.count()).iter().map(|mu| mu.abs()).collect();
+        let case = LoadCase {
+            load: &load,
+            prescribed: Some(&prescribed),
+            gap: &gap,
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: Some(&slip),
+        };
+        let settings = Settings { full_space: true, ..Settings::default() };
+        let monitor = &mut Monitor::new(&settings, None);
+        let model = mesh.stiffness().model_under(&fixed, &pairs.view(), monitor).expect("a model");
+        let found = model.solve(&case, &settings, None, monitor).expect("a case");
+        assert_eq!(found.status, Status::Solved, "{problem}, {ratio:e}: {}", found.message);
     }
 }

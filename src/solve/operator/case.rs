@@ -104,12 +104,23 @@ pub fn certify(
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
-    for _ in 0..SOLUTIONS {
-        let next = at.clone().in_equilibrium(&mut bodies, (case.load, LEFT_BY_MEASURE), endless);
-        at = ended(next)?.unwrap_or(at);
-    }
+    at = ended(settled(at.clone(), (&mut bodies, case.dim), case.load, endless))?.unwrap_or(at);
     let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
+}
+
+/// The displacements with inner ones in equilibrium to the rounding of doubles, the pairs held.
+fn settled(
+    mut at: Displacements,
+    (bodies, dim): (&mut Session<'_>, usize),
+    load: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Result<Displacements, Ending> {
+    bodies.hold_all(dim, monitor)?;
+    for _ in 0..SOLUTIONS {
+        at = at.in_equilibrium(bodies, (load, LEFT_BY_MEASURE), monitor)?;
+    }
+    Ok(at)
 }
 
 /// A load case with what the bodies say of it where all pairs are held.
@@ -223,7 +234,8 @@ impl<'a> Loaded<'a> {
 }
 
 /// Newton's method, and what follows until the certificate calls one's result a solution: the balance of free motions,
-/// the dense problem of the pairs that may touch, problems with given thresholds.
+/// the dense problem of the pairs that may touch, problems with given thresholds, inner displacements without the rounding
+/// of systems with springs.
 fn by_attempts(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
@@ -232,7 +244,7 @@ fn by_attempts(
 ) -> Result<Outcome, Error> {
     let point = equations.held_at(start.clone(), bodies)?;
     let mut best = newton::solve(equations, bodies, point, monitor)?;
-    for attempt in [balance, condensed::solve, thresholds::solve] {
+    for attempt in [balance, condensed::solve, thresholds::solve, refine] {
         let Point { at, residual, merit, .. } = &best.point;
         let certificate = measure_spread(equations.contact, bodies.operator, &at.x, residual);
         let has_ended = matches!(best.ending, Ending::Stopped(_) | Ending::Recession(_));
@@ -265,6 +277,22 @@ fn balance(
         Ending::Recession(motion) => Err(Ending::Recession(motions.continued(&motion))),
         _ => Ok(()),
     }
+}
+
+/// Takes inner displacements that are in equilibrium with those of the pairs, if that leaves less.
+fn refine(
+    equations: &Equations<'_>,
+    bodies: &mut Session<'_>,
+    _start: &Displacements,
+    best: &mut Outcome,
+    monitor: &mut Monitor<'_>,
+) -> Result<(), Ending> {
+    let (at, dim) = (best.point.at.clone(), equations.contact.dim());
+    let point = equations.held_at(settled(at, (bodies, dim), equations.load, monitor)?, bodies)?;
+    if point.eta < best.point.eta {
+        best.point = point;
+    }
+    Ok(())
 }
 
 /// Gives a solution that has no equilibrium its motion of escape.
