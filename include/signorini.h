@@ -686,8 +686,8 @@ struct signorini_extra {
     int32_t reserved;      /**< 0. */
     /**
      * With SIGNORINI_STATUS_NO_EQUILIBRIUM a motion r that proves it, its largest entry 1: K r = 0,
-     * and f . r + F . r > 0 for all forces F that the law admits. In flexibility form pressing
-     * normal forces p, the largest -1: W p = 0, and the sum of p_n (gap - q_n) is positive. Else
+     * and f . r + F . r > 0 for all forces F that the law admits. In flexibility form forces p,
+     * pressing normal ones but for ties: W p = 0, p . (g - q) > 0, g gap and reference slip. Else
      * zeros.
      */
     double *motion;

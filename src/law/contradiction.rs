@@ -1,33 +1,40 @@
-//! Gaps that no displacements meet: a proof by normal forces alone.
+//! Gaps that no displacements meet: a proof by forces alone.
 //!
-//! Where normal forces `p >= 0` balance each other in all that the rows allow, `sum p d_n` is the same `sum p o_n`
-//! for all displacements, `o` those of fixed values. Every `d_n <= gap` would make it at most `sum p gap`. If that
-//! is less, the gaps contradict each other, whatever the friction.
+//! Where forces `p` balance each other in all that the rows allow, `sum p d` is the same `sum p o` for all displacements,
+//! `o` those of fixed values. Every `d_n <= gap` would make the part of a pressing normal force at most `p gap`, and a tie
+//! makes that of any force `p` times what it prescribes. If the sum of these is less than `sum p o`, the gaps contradict each
+//! other, whatever the friction.
 
 use crate::problem::{ContactProblem, FrictionLaw, Relation};
 
 /// Part of the sum's terms by which it must be negative: rounding of the forces is far below.
 const LEAST: f64 = 1e-6;
 
-/// The pressing normal forces of a pattern, all other components zero.
-pub fn pressing(dim: usize, pattern: &[f64]) -> Vec<f64> {
-    let part = |(i, force): (usize, &f64)| if i % dim == 0 { force.min(0.0) } else { 0.0 };
+/// The forces of a pattern whose work the law bounds: pressing normal forces, and all forces of ties. Other components are zero.
+pub fn bounded<R: Relation>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> Vec<f64> {
+    let dim = problem.dim();
+    let part = |(i, &force): (usize, &f64)| match i % dim {
+        _ if problem.is_tied(i / dim) => force,
+        0 => force.min(0.0),
+        _ => 0.0,
+    };
     pattern.iter().enumerate().map(part).collect()
 }
 
-/// Returns `true` if pressing forces that balance each other prove that the gaps contradict each other; `offset` is `o`.
+/// Returns `true` if bounded forces that balance each other prove that the gaps contradict each other; `offset` is `o`.
 pub fn exceed_gaps<R: Relation>(
     problem: &ContactProblem<'_, R>,
-    pressing: &[f64],
+    bounded: &[f64],
     offset: &[f64],
 ) -> bool {
     let dim = problem.dim();
-    let term = |pair: usize| {
-        let p = -pressing[dim * pair];
-        if p > 0.0 { p * (problem.gap(pair) - offset[dim * pair]) } else { 0.0 }
+    let prescribed = |i: usize| match i % dim {
+        0 => problem.gap(i / dim),
+        component => problem.reference_slip(i / dim, component - 1),
     };
-    let (sum, size) = (0..problem.pairs())
-        .map(term)
+    let works = bounded.iter().zip(offset).enumerate().filter(|(_, (force, _))| **force != 0.0);
+    let (sum, size) = works
+        .map(|(i, (force, offset))| -force * (prescribed(i) - offset))
         .fold((0.0, 0.0), |(sum, size), term| (sum + term, size + term.abs()));
     sum < -LEAST * size
 }

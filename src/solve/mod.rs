@@ -75,8 +75,8 @@ pub(crate) fn solve_dependent(
 ///
 /// Where `W` is singular, contact forces need not be unique: from the start zero they are the smallest, where
 /// the states of pairs do not change on the way. No solution is called the only one. With
-/// [`Status::NoEquilibrium`] [`Solution::recession`] holds pressing normal forces which move nothing and prove
-/// that the gaps contradict each other.
+/// [`Status::NoEquilibrium`] [`Solution::recession`] holds pressing normal forces, and forces of ties, which move
+/// nothing and prove that the gaps contradict each other.
 ///
 /// Pairs that no entry of a sparse `W` ties to each other are islands, each solved by itself to the tolerance: time and
 /// memory are those of dense problems of their sizes, the memory that of the largest. What was found is certified as a

@@ -157,6 +157,52 @@ fn gaps_that_contradict_each_other_are_named() {
     }
 }
 
+/// Two pairs of one node have the same displacement. A tie prescribes it, so that the other pair must prescribe the same along
+/// its normal and tangent if it is tied, and must have its obstacle there or beyond if it is not.
+#[test]
+fn ties_that_contradict_each_other_are_named() {
+    let model = node_on_planes(&[[0.0, -1.0], [0.0, -1.0]]).model().unwrap();
+    let tie = [7.0, 0.0, 0.0, 0.0];
+    let of_second = [[7.0, 0.0, 0.0, 0.0], [1.0, 0.3, 0.0, 0.0], [2.0, 5.0, 0.0, 0.0], [0.0; 4]];
+    for (kind, second) in of_second.into_iter().enumerate() {
+        for (gap, slip) in [
+            ([0.0, 0.01], [0.0; 2]),
+            ([0.0, -0.01], [0.0; 2]),
+            ([0.02, 0.02], [0.0, 0.01]),
+            ([0.02, 0.02], [0.01, 0.01]),
+            ([0.02, 0.03], [-0.01, 0.01]),
+        ] {
+            let fits = match kind {
+                0 => gap[0] == gap[1] && slip[0] == slip[1],
+                _ => gap[0] <= gap[1],
+            };
+            let numbers = [tie, second].concat();
+            let case = LoadCase {
+                load: &[0.3, 0.2],
+                prescribed: None,
+                gap: &gap,
+                law: FrictionLaw::ByPair(&numbers),
+                reference_slip: Some(&slip),
+            };
+            let settings = Settings::default();
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            let context = format!("{second:?}, {gap:?}, {slip:?}: {}", solution.message);
+            if fits {
+                assert_eq!(solution.status, Status::Solved, "{context}");
+                // The tolerance is 1e-10 of forces below 1, on springs of 2.
+                assert!((solution.d[0] - gap[0]).abs() < 1e-9, "{context}");
+                assert!((solution.d[1] - slip[0]).abs() < 1e-9, "{context}");
+            } else {
+                assert_ne!(solution.status, Status::Solved, "{context}");
+                let said =
+                    "no solution exists: the gaps or slips of pairs 0, 1 contradict each other";
+                assert!(solution.message.contains(said), "{context}");
+            }
+        }
+    }
+}
+
 /// A host with independent random rows.
 fn independent(rng: &mut Rng) -> Host {
     loop {

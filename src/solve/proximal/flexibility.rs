@@ -23,7 +23,7 @@ use super::on_flexibility::{LawPoint, OnFlexibility};
 use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
 use super::step::ended;
 use crate::error::{Argument, Error};
-use crate::law::{Contact, exceed_gaps, pressing};
+use crate::law::{Contact, bounded, exceed_gaps};
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
 use crate::problem::{Flexibility, FlexibilityProblem};
@@ -77,7 +77,7 @@ pub fn solve(
     let eta = solution.certificate.eta;
     if let Some(proof) = proof.or_else(|| at_a_wall(problem)) {
         solution.message = sentence(problem, Some(&proof), true, eta, number).into();
-        let mut forces = pressing(problem.dim(), &proof);
+        let mut forces = bounded(problem, &proof);
         normalise(&mut forces);
         solution.status = Status::NoEquilibrium;
         solution.recession = Some(forces);

@@ -1,7 +1,7 @@
 //! Contact forces that grow without end, and what they show.
 
 use crate::error::{MOST_NAMED, index};
-use crate::law::{exceed_gaps, pressing};
+use crate::law::{bounded, exceed_gaps};
 use crate::linalg::vector::{norm, norm_inf};
 use crate::problem::{ContactProblem, Redundant};
 
@@ -44,12 +44,11 @@ impl Growth {
     }
 }
 
-/// True if the normal forces of a pattern prove that no displacements meet all gaps.
+/// True if the forces of a pattern prove that no displacements meet all gaps.
 pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> bool {
     let relation = problem.relation();
-    let pressing = pressing(problem.dim(), pattern);
-    relation.balance_each_other(&pressing, 0.0)
-        && exceed_gaps(problem, &pressing, relation.offset())
+    let forces = bounded(problem, pattern);
+    relation.balance_each_other(&forces, 0.0) && exceed_gaps(problem, &forces, relation.offset())
 }
 
 /// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
@@ -70,8 +69,14 @@ pub fn sentence<R: Redundant>(
     let dim = problem.dim();
     let least = COUNTS * norm_inf(pattern);
     let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;
-    let pairs: Vec<usize> = (0..problem.pairs()).filter(carries).map(number).collect();
-    let named = named(&pairs);
+    let pairs: Vec<usize> = (0..problem.pairs()).filter(carries).collect();
+    let named = named(&pairs.iter().copied().map(number).collect::<Vec<_>>());
+    if proved && pairs.iter().any(|&pair| problem.is_tied(pair)) {
+        return format!(
+            "no solution exists: the gaps or slips of pairs {named} contradict each other, as ties prescribe them \
+             and the bodies cannot have both"
+        );
+    }
     if proved {
         return format!(
             "no solution exists: the gaps of pairs {named} contradict each other, as bodies cannot leave \
