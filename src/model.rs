@@ -275,6 +275,7 @@ impl Model {
             self.reduction.condense(case.load, case.prescribed)
         };
         let load = load.map_or_else(condensed, Ok)?;
+        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
         let offset = dependence.offset(case.prescribed);
         let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let stiffness = (self.reduction.stiffness(), &load[..]);

@@ -5,7 +5,7 @@
 //! makes that of any force `p` times what it prescribes. If the sum of these is less than `sum p o`, the gaps contradict each
 //! other, whatever the friction.
 
-use crate::problem::{ContactProblem, FrictionLaw, Relation};
+use crate::problem::{ContactProblem, FrictionLaw, Law, Relation};
 
 /// Part of the sum's terms by which it must be negative: rounding of the forces is far below.
 const LEAST: f64 = 1e-6;
@@ -59,6 +59,20 @@ pub fn first_open_tie(
         (law.is_tied(pair, gap) && gap != 0.0).then_some((pair, gap))
     };
     pairs.find_map(open)
+}
+
+/// The first of some pairs whose law has a tension, with the tension; none where numbers of pairs are missing.
+pub fn first_tension(
+    (gaps, law): (&[f64], FrictionLaw<'_>),
+    mut pairs: impl Iterator<Item = usize>,
+) -> Option<(usize, f64)> {
+    if law.values().len() < law.parameters() * gaps.len() {
+        return None;
+    }
+    pairs.find_map(|pair| match law.of_pair(pair) {
+        (Law::Cohesive, &[_, _, tension]) if tension > 0.0 => Some((pair, tension)),
+        _ => None,
+    })
 }
 
 /// The first of some pairs whose gap is a penetration, with its gap.

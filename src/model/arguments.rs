@@ -1,7 +1,7 @@
 //! Checks of a model's arrays.
 
-use crate::error::{Argument, Error, entry};
-use crate::law::{first_open_tie, first_penetration};
+use crate::error::{Argument, Error, entry, index};
+use crate::law::{first_open_tie, first_penetration, first_tension};
 use crate::problem::{FrictionLaw, Named, check_finite};
 
 /// Refuses a vector of the wrong length, or with entries that are not finite.
@@ -17,7 +17,8 @@ pub(super) fn check_vector(
     check_finite((name, argument), values)
 }
 
-/// Refuses a penetration, and the gap of a tie, that supports on both sides of a pair hold: no displacement takes it away.
+/// Refuses a penetration, and the gap of a tie, that supports on both sides of a pair hold: no displacement takes it away. A
+/// tension would pull the supports alone: it is refused too.
 pub(super) fn check_fixed_gaps(
     fixed_components: &[usize],
     dim: usize,
@@ -33,6 +34,14 @@ pub(super) fn check_fixed_gaps(
             entry("gap", [pair])
         );
         return Err(Error::invalid(Argument::Gap, message));
+    }
+    if let Some((pair, tension)) = first_tension((gaps, law), normals.clone()) {
+        let message = format!(
+            "pair {} has a tension of {tension}, but both sides are fixed along its normal: set a and b to 0, release a \
+             side, or leave the pair out",
+            index(pair)
+        );
+        return Err(Error::invalid(Argument::Law, message));
     }
     let Some((pair, gap)) = first_penetration(gaps, normals) else { return Ok(()) };
     let message = format!(

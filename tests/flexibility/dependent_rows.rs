@@ -203,6 +203,44 @@ fn ties_that_contradict_each_other_are_named() {
     }
 }
 
+/// A pair whose node is fixed, beside a node that is slave of two pairs: a penetration, the gap of a tie and a tension ask for a
+/// displacement or a force that the fixed node does not have, and are refused as they are without the second pair.
+#[test]
+fn held_pairs_beside_dependent_ones_are_checked() {
+    for copies in [1, 2] {
+        let count = 1 + copies;
+        let mut rows = vec![vec![(1, 1.0)]; count];
+        rows[0] = vec![(0, 1.0)];
+        let stiffness = vec![
+            3.0, 0.0, -1.0, 0.0, 0.0, 3.0, 0.0, -1.0, -1.0, 0.0, 3.0, 0.0, 0.0, -1.0, 0.0, 3.0,
+        ];
+        let normals = [1.0, 0.0].repeat(count);
+        let host = Host { dim: 2, stiffness, fixed: vec![0, 1], rows, normals, tangents: None };
+        let model = host.model().unwrap();
+        let [mu, cohesion] = [vec![0.3; count], [0.3, 2.0, 1.0].repeat(count)];
+        for (first, law, said) in [
+            (-1.0, FrictionLaw::Coulomb(&mu), Some("gap[0] is -1, a penetration")),
+            (0.5, FrictionLaw::Tied, Some("gap[0] is 0.5, and the pair is tied")),
+            (0.5, FrictionLaw::Cohesive(&cohesion), Some("pair 0 has a tension of 1")),
+            (0.5, FrictionLaw::Coulomb(&mu), None),
+        ] {
+            let mut gap = vec![0.2; count];
+            gap[0] = first;
+            let load = &[0.0, 0.0, 1.0, 0.0];
+            let case = LoadCase { load, prescribed: None, gap: &gap, law, reference_slip: None };
+            let settings = Settings::default();
+            let found = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None));
+            match (found, said) {
+                (Err(error), Some(said)) => {
+                    assert!(error.to_string().starts_with(said), "{copies}: {error}");
+                }
+                (Ok(solution), None) => assert_eq!(solution.status, Status::Solved),
+                (found, _) => panic!("{copies}, {law:?}: {found:?}"),
+            }
+        }
+    }
+}
+
 /// A host with independent random rows.
 fn independent(rng: &mut Rng) -> Host {
     loop {

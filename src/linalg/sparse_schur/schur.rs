@@ -55,8 +55,12 @@ impl SparseSchur {
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
-        let units: Vec<f64> =
-            (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default()).collect();
+        let kept = (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default());
+        let mut units: Vec<f64> = kept.collect();
+        // A component of a rigid body has no stiffness of its own: the stiffest other one is its unit.
+        let largest = units.iter().fold(0.0, |largest: f64, unit| largest.max(*unit));
+        let of_rigid = if largest > 0.0 { largest } else { 1.0 };
+        units.iter_mut().filter(|unit| **unit == 0.0).for_each(|unit| *unit = of_rigid);
         let least = suspicious_pivot(weakest.map_or(1.0, |(_, pivot)| pivot));
         let doubt = match always || m <= FEW {
             true => Some(Doubt::Pivots),

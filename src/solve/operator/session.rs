@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use crate::error::Error;
+use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
 use crate::solve::result::Ending;
@@ -57,8 +58,12 @@ impl<'b> Session<'b> {
     }
 
     /// A solution with the held components at zero, or with the inverse, or what the preconditioner makes of the forces.
+    /// The host is not asked with numbers that are not finite: a singular operator leads there.
     pub fn solve(&mut self, forces: &[f64], monitor: &mut Monitor<'_>) -> Result<Vec<f64>, Ending> {
         monitor.goes_on()?;
+        if first_not_finite(forces).is_some() {
+            return Err(Ending::Stalled("the forces are beyond the largest number"));
+        }
         self.solutions += 1;
         let solution = asked(monitor, |goes_on| self.operator.solve(forces, goes_on))?;
         Ok(solution.unwrap_or_default())
