@@ -366,7 +366,8 @@ struct signorini_contact_zone {
  * state.
  *
  * A node may be slave in one zone and master in another. A face that is slave in two zones is
- * refused if both have a pair of one of its nodes: pair it once, with the masters of both.
+ * refused if both have a pair of one of its nodes: pair it once, with the masters of both. A node
+ * of faces of its own in each of two zones has two pairs: a flat contact is one zone.
  *
  * @param n_zones  number of zones, at least 1
  * @param zones    the zones, paired on one mesh with one numbering

@@ -46,7 +46,8 @@ const OF_NODE: usize = 256;
 /// state.
 ///
 /// A node may be slave in one zone and master in another. A face that is slave in two zones is
-/// refused if both have a pair of one of its nodes: pair it once, with the masters of both.
+/// refused if both have a pair of one of its nodes: pair it once, with the masters of both. A node
+/// of faces of its own in each of two zones has two pairs: a flat contact is one zone.
 ///
 /// @param n_zones  number of zones, at least 1
 /// @param zones    the zones, paired on one mesh with one numbering

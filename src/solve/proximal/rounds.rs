@@ -12,8 +12,8 @@
 //! default method has all its means.
 //!
 //! Where the forces grow without end there is no solution near: they balance each other and wedge the bodies,
-//! or the gaps contradict each other. The second is proved by normal forces that balance each other and do work
-//! on the gaps.
+//! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
+//! do work on the gaps.
 
 use super::growth::{Growth, contradicts, sentence};
 use super::step::{measured, step};
