@@ -11,6 +11,7 @@ use super::unit::Unit;
 use super::watch::Watch;
 use super::{mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::monitor::Monitor;
 use crate::problem::checked_dim;
 
@@ -129,13 +130,16 @@ fn overlapping_and_rough(
     let [mut overlapping, mut rough] = [0, 0];
     for at in 0..slave.count() {
         watch.goes_on()?;
-        let of_nodes = slave.face(at).nodes.iter().map(|&node| *gap_at.get(node)?);
+        let face = slave.face(at);
+        let of_nodes = face.nodes.iter().map(|&node| *gap_at.get(node)?);
         let gaps: Vec<f64> = of_nodes.flatten().collect();
         let [least, most] = [f64::min, f64::max].map(|of| gaps.iter().copied().reduce(of));
         let (Some(least), Some(most)) = (least, most) else { continue };
         let overlap = -gaps.iter().sum::<f64>() / gaps.len() as f64;
-        overlapping += usize::from(overlap > 0.0);
-        rough += usize::from(overlap > 0.0 && most - least > overlap);
+        // Sides that touch have gaps of rounding, of either sign.
+        let overlaps = overlap > ROUNDING_OF_SUM * face.size();
+        overlapping += usize::from(overlaps);
+        rough += usize::from(overlaps && most - least > overlap);
     }
     Ok([overlapping, rough])
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::mesh::Faces;
 use super::pairs::{SurfacePairs, SurfaceReport};
 use crate::error::{Argument, Error, Message, index};
+use crate::linalg::vector3::Vector3;
 
 /// A contact zone: its name, its pairs, and the slave faces that they were made of.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,8 @@ pub struct ContactZone<'a> {
 ///
 /// # Errors
 /// [`Argument::Pairs`]: no zone, a name that is empty or stands twice, zones of different dimensions or one of revolution
-/// among others, and a slave face of two zones of which both have the pair of a node: they would press on it twice.
+/// among others, and a slave face of two zones of which both have the pair of a node on the same side: they would press on it
+/// twice.
 pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<SurfacePairs, Error> {
     let refuse = |message: String| Err(Error::invalid(Argument::Pairs, message));
     let Some(first) = zones.first() else { return refuse("there is no zone".into()) };
@@ -59,8 +61,10 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<SurfacePairs, Error> {
 /// The words for a slave face of two zones of which both have the pair of a node.
 fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
     let mut known: HashMap<Vec<usize>, Vec<(usize, usize)>> = HashMap::new();
-    let owns = |zone: usize, node: usize| {
-        zones[zone].contact.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok()
+    let normal = |zone: usize, node: usize| {
+        let pairs = &zones[zone].contact.pairs;
+        let found = pairs.binary_search_by_key(&node, |pair| pair.slave);
+        found.ok().map(|at| Vector3::from(pairs[at].normal))
     };
     for (place, zone) in zones.iter().enumerate() {
         for (face, ends) in zone.slave.start.windows(2).enumerate() {
@@ -69,7 +73,11 @@ fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
             key.sort_unstable();
             let others = known.entry(key).or_default();
             for &(other, other_face) in others.iter() {
-                let twice = |node: &&usize| owns(place, **node) && owns(other, **node);
+                // Both sides of a shell have the same nodes, and normals that are opposite.
+                let twice = |node: &&usize| {
+                    let normals = normal(place, **node).zip(normal(other, **node));
+                    normals.is_some_and(|(own, others)| own.dot(&others) > 0.0)
+                };
                 if let Some(node) = nodes.iter().find(twice) {
                     return Some(format!(
                         "slave face {} of zone '{}' is slave face {} of zone '{}', and both have a pair of node {}: \

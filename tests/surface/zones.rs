@@ -106,6 +106,11 @@ fn zones_that_cannot_be_joined_are_named() {
         assert!(error.contains(words), "{error}");
     }
     assert!(join_zones(&[]).is_err());
+    // The other side of the faces, as of a shell between two bodies: their normals are opposite.
+    let mut other_side = contact.clone();
+    other_side.pairs.iter_mut().for_each(|pair| pair.normal = pair.normal.map(|n| -n));
+    let both = join_zones(&[one, zone("two", &other_side, slave)]).expect("a shell").pairs;
+    assert_eq!(both, [contact.pairs.clone(), other_side.pairs.clone()].concat());
     // The same side twice, of which one zone has found nothing.
     assert_eq!(join_zones(&[one, zone("two", &nothing, slave)]).unwrap().pairs, contact.pairs);
 }
