@@ -307,7 +307,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 72 + 7 * address_bytes
+        integer(c_int32_t) :: struct_size = 80 + 10 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
@@ -327,6 +327,10 @@ module signorini
         type(c_ptr) :: master_shape = c_null_ptr
         real(c_double) :: close_within = 0
         real(c_double) :: clearance = 0
+        type(c_ptr) :: symmetry_normals = c_null_ptr
+        integer(c_int64_t) :: sectors = 0
+        type(c_ptr) :: sector_point = c_null_ptr
+        type(c_ptr) :: sector_axis = c_null_ptr
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
@@ -1775,8 +1779,8 @@ contains
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
     ! or _KEEP. settings: in the place of the defaults, for axisymmetric, fitted, slave_shape and the fields after it,
-    ! time_limit, progress and user; an argument that is present comes before it. Its lists and index_base
-    ! are not read.
+    ! time_limit, progress and user; an argument that is present comes before it. Of its lists symmetry_normals, with
+    ! symmetry_planes and symmetry_at, and those of a sector are read; index_base is not.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
             dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self
@@ -2166,7 +2170,7 @@ contains
         if (present(settings)) told%settings = settings
         told%settings%index_base = 1
         told%settings%node_dofs = c_null_ptr
-        told%settings%symmetry_planes = 0
+        if (.not. c_associated(told%settings%symmetry_normals)) told%settings%symmetry_planes = 0
         if (present(search_distance)) then
             told%settings%search_distance = search_distance
             if (.not. search_distance > 0) call refuse(wrong, first, 'search_distance must be positive')
@@ -2193,6 +2197,7 @@ contains
             told%at = [symmetry_at]
             told%settings%symmetry_planes = axes
             told%settings%symmetry_axes = c_loc(told%axes)
+            told%settings%symmetry_normals = c_null_ptr
             told%settings%symmetry_at = c_loc(told%at)
         end if
         if (present(normals)) then

@@ -198,6 +198,22 @@ struct signorini_surface_settings {
      * half the thicknesses of shells; length; default 0.
      */
     double clearance;
+    /**
+     * The direction across each plane of symmetry, dim for each, of any length, along which
+     * symmetry_at counts from the origin. Default NULL: symmetry_axes. Of nodes on a skewed plane
+     * give u . m = 0 as equations.
+     */
+    const double *symmetry_normals;
+    /**
+     * The number of sectors of a body that repeats about an axis, of which the mesh is one; default
+     * 0: none. Pairs see the neighbours, and are those of the whole body. The nodes of the second
+     * boundary are images of those of the first, u = Q u', which you give as equations; the pair of
+     * both is at the first. A right-handed turn about the axis leads from the first to the second.
+     */
+    int64_t sectors;
+    const double *sector_point;             /**< A point of the axis, dim coordinates. */
+    /** The direction of the axis, 3 entries, of any length; in 2D not read. */
+    const double *sector_axis;
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

@@ -214,7 +214,7 @@ fn joined_zones(zones: &[Zone<'_>]) -> JoinedZones {
 impl SignoriniSurfacePairs {
     /// Bytes that copies of the pairs and of their faces may take.
     fn bytes(&self) -> usize {
-        let nodes = self.arrays.weights.len() + self.slave_faces[1].len();
+        let nodes = self.arrays.masters.len() / self.found.dim + self.slave_faces[1].len();
         OF_PAIR * (1 + self.arrays.count) + OF_NODE * nodes
     }
 

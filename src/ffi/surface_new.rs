@@ -2,13 +2,14 @@
 
 use std::ffi::CString;
 use std::mem::take;
+use std::ptr::null;
 
 use super::args::{Arrays, c_entry};
 use super::guard::{Outcome, refused};
 use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::settings::ParsedSettings;
-use super::structures::Structure;
+use super::structures::{Structure, address};
 use super::surface::{SIGNORINI_OBSTACLE_FACES, SignoriniFaces, SignoriniObstacle};
 use super::surface_settings::{Numbering, SignoriniSurfaceSettings};
 use crate::error::{Argument, Error, Message};
@@ -250,6 +251,7 @@ impl SignoriniSurfacePairs {
             found.report.beyond.iter().copied().unzip();
         let summary = &zones.summary;
         let summary = if base == 1 { summary.counted_from_one() } else { summary.to_string() };
+        let by_dof = !arrays.vectors.is_empty();
         let rows = SignoriniPairs {
             dim: found.dim as i32,
             count: found.pairs.len() as i64,
@@ -257,7 +259,8 @@ impl SignoriniSurfacePairs {
             tangents: arrays.tangents.as_ptr(),
             row_start: indices[0].as_ptr(),
             row_nodes: indices[1].as_ptr(),
-            row_weights: arrays.weights.as_ptr(),
+            row_weights: if by_dof { null() } else { arrays.weights.as_ptr() },
+            row_vectors: address(&arrays.vectors),
             ..SignoriniPairs::zeros()
         };
         SignoriniSurfacePairs {

@@ -8,7 +8,9 @@ use super::numbers::{Numbered, numbers};
 use super::settings::{ParsedSettings, SignoriniProgressFn, SignoriniSettings};
 use super::structures::Structure;
 use super::surface::SignoriniObstacle;
-use crate::surface::{NodeDofs, Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
+use crate::surface::{
+    NodeDofs, Normals, Pairing, Rims, Sector, SurfaceSettings, SymmetryPlane, TrueShape,
+};
 
 /// Dual mortar, the default: a uniform pressure passes between any two flat meshes.
 pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
@@ -99,6 +101,19 @@ pub struct SignoriniSurfaceSettings {
     /// What is added to every gap then: a clearance, or if it is negative an interference, such as
     /// half the thicknesses of shells; length; default 0.
     pub clearance: f64,
+    /// The direction across each plane of symmetry, dim for each, of any length, along which
+    /// symmetry_at counts from the origin. Default NULL: symmetry_axes. Of nodes on a skewed plane
+    /// give u . m = 0 as equations.
+    pub symmetry_normals: *const f64,
+    /// The number of sectors of a body that repeats about an axis, of which the mesh is one; default
+    /// 0: none. Pairs see the neighbours, and are those of the whole body. The nodes of the second
+    /// boundary are images of those of the first, u = Q u', which you give as equations; the pair of
+    /// both is at the first. A right-handed turn about the axis leads from the first to the second.
+    pub sectors: i64,
+    /// A point of the axis, dim coordinates.
+    pub sector_point: *const f64,
+    /// The direction of the axis, 3 entries, of any length; in 2D not read.
+    pub sector_axis: *const f64,
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -148,11 +163,12 @@ impl SignoriniSurfaceSettings {
             Some(dofs) => NodeDofs::Listed(at.field("node_dofs").shifted(dofs, base)?),
             None => NodeDofs::PerNode(per_node),
         };
-        let symmetry = given.symmetry(at)?;
+        let symmetry = given.symmetry(at, dim)?;
         let settings = SurfaceSettings {
             pairing,
             search_distance: Some(given.search_distance).filter(|distance| *distance != 0.0),
             symmetry,
+            sector: given.sector(at, dim)?,
             normals,
             rims,
             axisymmetric: given.axisymmetric != 0,
@@ -183,20 +199,52 @@ impl SignoriniSurfaceSettings {
     }
 
     /// The planes of symmetry.
-    fn symmetry(&self, at: At<'_>) -> Outcome<Vec<SymmetryPlane>> {
+    fn symmetry(&self, at: At<'_>, dim: usize) -> Outcome<Vec<SymmetryPlane>> {
         let count = at.field("symmetry_planes").size(self.symmetry_planes)?;
+        let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
+        let entries = count.saturating_mul(dim);
+        let normals = at.field("symmetry_normals").optional(self.symmetry_normals, entries)?;
+        if let Some(normals) = normals {
+            let plane = |(normal, &at): (&[f64], &f64)| SymmetryPlane { normal: three(normal), at };
+            return Ok(normals.chunks_exact(dim).zip(places).map(plane).collect());
+        }
         let at_axes = at.field("symmetry_axes");
         let axes = at_axes.required(self.symmetry_axes, count)?;
-        let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
-        let plane = |(&axis, &at): (&i32, &f64)| {
-            let counted = i64::from(axis) - i64::from(self.index_base);
-            match usize::try_from(counted) {
-                Ok(axis) => Ok(SymmetryPlane { axis, at }),
-                Err(_) => at_axes.refuse(format!("has {axis}, there is no such axis")),
+        let plane = |(k, (&given, &at)): (usize, (&i32, &f64))| {
+            let base = i64::from(self.index_base);
+            match usize::try_from(i64::from(given) - base) {
+                Ok(axis) if axis < dim => Ok(SymmetryPlane::across(axis, at)),
+                Ok(_) => at_axes.refuse(format!(
+                    "plane of symmetry {}: there is no axis {given}, the last one is {}",
+                    k as i64 + base,
+                    dim as i64 - 1 + base
+                )),
+                Err(_) => at_axes.refuse(format!("has {given}, there is no such axis")),
             }
         };
-        axes.iter().zip(places).map(plane).collect()
+        axes.iter().zip(places).enumerate().map(plane).collect()
     }
+
+    /// The sector.
+    fn sector(&self, at: At<'_>, dim: usize) -> Outcome<Option<Sector>> {
+        let count = at.field("sectors").size(self.sectors)?;
+        if count == 0 {
+            return Ok(None);
+        }
+        let point = three(at.field("sector_point").required(self.sector_point, dim)?);
+        let axis = match dim {
+            2 => [0.0, 0.0, 1.0],
+            _ => three(at.field("sector_axis").required(self.sector_axis, 3)?),
+        };
+        Ok(Some(Sector { point, axis, count }))
+    }
+}
+
+/// The numbers of a place or a direction, in the plane with a zero behind them.
+fn three(numbers: &[f64]) -> [f64; 3] {
+    let mut all = [0.0; 3];
+    all[..numbers.len()].copy_from_slice(numbers);
+    all
 }
 
 numbers! {

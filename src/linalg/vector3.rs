@@ -18,6 +18,17 @@ pub fn axis(axis: usize) -> Vector3 {
     Vector3::ith(axis, 1.0)
 }
 
+/// The turn by an angle in radians about a unit vector, right-handed.
+pub fn turn_about(axis: Vector3, angle: f64) -> Matrix3 {
+    *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()
+}
+
+/// A vector without its parts along orthonormal directions.
+pub fn without(mut vector: Vector3, directions: &[Vector3]) -> Vector3 {
+    directions.iter().for_each(|along| vector -= along.dot(&vector) * along);
+    vector
+}
+
 /// The vector at length one; `None` if it is zero or not finite.
 pub fn unit(vector: Vector3) -> Option<Vector3> {
     // Scaled first: the square of its length may be out of range.

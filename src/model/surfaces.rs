@@ -12,6 +12,7 @@ impl<'a> From<&'a PairArrays> for ContactPairs<'a> {
             master_start: &arrays.master_start,
             masters: &arrays.masters,
             weights: &arrays.weights,
+            vectors: (!arrays.vectors.is_empty()).then_some(&arrays.vectors),
             normals: &arrays.normals,
             tangents: Some(&arrays.tangents),
             ..ContactPairs::default()

@@ -12,30 +12,58 @@ use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::conjugate_gradients::conjugate_gradients;
 use crate::linalg::sparse_matrix::{Csc, from_entries, times, transpose_times};
-use crate::linalg::vector3::{Vector3, vector};
+use crate::linalg::vector::norm_inf;
+use crate::linalg::vector3::{self, Vector3, vector, without};
 use crate::monitor::Monitor;
 
-/// `Sᵀ` along an axis: a column for each pair, a row for each of some nodes, those that are held apart.
-fn slave_weights(pairs: &[&SurfacePair], nodes: &[usize], axis: usize) -> Result<Csc, Error> {
-    let is_held = |pair: &&&SurfacePair| pair.held[axis];
-    let held: HashSet<usize> = pairs.iter().filter(is_held).map(|pair| pair.slave).collect();
-    let moves = |(node, _): &&Weight| !held.contains(node);
-    let free = pairs.iter().enumerate().filter(|(_, pair)| !pair.held[axis]);
-    let entries = free.flat_map(|(k, pair)| {
-        let weights = pair.slaves().iter().filter(moves);
-        weights.map(move |&(node, weight)| (nodes.partition_point(|n| *n < node), k, weight))
-    });
-    from_entries((nodes.len(), pairs.len()), entries)
-        .map_err(|_| Error::OutOfMemory("the rows of the pairs"))
+/// What a row sees of the motion of its nodes.
+struct Motions<'p> {
+    found: &'p SurfacePairs,
+    pairs: Vec<&'p SurfacePair>,
+    /// The slave nodes of the pairs, ascending; of images those that they are images of.
+    nodes: Vec<usize>,
+}
+
+impl<'p> Motions<'p> {
+    fn new(found: &'p SurfacePairs, pairs: Vec<&'p SurfacePair>) -> Self {
+        let slaves = pairs.iter().flat_map(|pair| pair.slaves());
+        let nodes: BTreeSet<usize> = slaves.map(|(node, _)| found.images.home(*node).0).collect();
+        Motions { found, pairs, nodes: nodes.into_iter().collect() }
+    }
+
+    /// `Sᵀ`: `dim` columns for each pair, `dim` rows for each node.
+    fn slave_weights(&self) -> Result<Csc, Error> {
+        let SurfacePairs { dim, ref images, .. } = *self.found;
+        let mut entries = Vec::new();
+        for (k, pair) in self.pairs.iter().enumerate() {
+            let of_pair = self.found.held(pair.slave);
+            for &(node, weight) in pair.slaves() {
+                let (node, by) = images.home(node);
+                let place = self.nodes.partition_point(|other| *other < node);
+                let held = self.found.held(node);
+                for axis in 0..dim {
+                    let moved = images.turn(by) * without(vector3::axis(axis), &held);
+                    let seen = weight * without(moved, &of_pair);
+                    let seen = seen.iter().take(dim).enumerate().filter(|(_, part)| **part != 0.0);
+                    entries.extend(seen.map(|(c, part)| (dim * place + axis, dim * k + c, *part)));
+                }
+            }
+        }
+        from_entries((dim * self.nodes.len(), dim * self.pairs.len()), entries.into_iter())
+            .map_err(|_| Error::OutOfMemory("the rows of the pairs"))
+    }
 }
 
 /// Where a master moves too, as in zones that are joined in a row, its slave misses it.
-fn masters_stay(pairs: &[&SurfacePair], dim: usize, moves: &[(usize, f64)]) -> Result<(), Error> {
-    let most = moves.iter().map(|(_, moved)| moved.abs()).fold(0.0, f64::max);
-    let seen = moves.iter().filter(|(_, moved)| without_rounding(*moved, most) != 0.0);
-    let moving: HashSet<usize> = seen.map(|(entry, _)| entry / dim).collect();
-    let masters = pairs.iter().flat_map(|pair| pair.masters());
-    match masters.map(|(node, _)| *node).find(|node| moving.contains(node)) {
+fn masters_stay(motions: &Motions<'_>, moves: &[f64]) -> Result<(), Error> {
+    let most = norm_inf(moves);
+    let is_seen = |moved: &[f64]| moved.iter().any(|moved| without_rounding(*moved, most) != 0.0);
+    let of_nodes = motions.nodes.iter().zip(moves.chunks_exact(motions.found.dim));
+    let moving: HashSet<usize> =
+        of_nodes.filter(|(_, moved)| is_seen(moved)).map(|(node, _)| *node).collect();
+    let masters = motions.pairs.iter().flat_map(|pair| pair.masters());
+    let homes = masters.map(|(node, _)| motions.found.images.home(*node).0);
+    match homes.into_iter().find(|node| moving.contains(node)) {
         None => Ok(()),
         Some(node) => {
             let message = format!(
@@ -67,43 +95,56 @@ impl SurfacePairs {
             let message = format!("within is {within}, it must not be negative");
             return Err(Error::invalid(Argument::Settings, message));
         }
-        let named = self.pairs.iter().flat_map(|pair| &pair.nodes);
-        let least = named.map(|(node, _)| dim * (node + 1)).max().unwrap_or(0);
+        let images = &self.images;
+        let named =
+            self.pairs.iter().flat_map(|pair| &pair.nodes).map(|(node, _)| images.of(*node).0);
+        let named = named.chain(images.on_second().map(|(second, _)| second));
+        let least = named.map(|node| dim * (node + 1)).max().unwrap_or(0);
         if coordinates.len() < least {
             let message =
                 format!("there are {} coordinates, the pairs have {least}", coordinates.len());
             return Err(Error::invalid(Argument::Coordinates, message));
         }
         let watch = &mut Watch::new(monitor);
-        let place = |&(node, weight): &Weight| weight * vector(&coordinates[dim * node..][..dim]);
-        let apart = |pair: &SurfacePair| -> Vector3 {
-            if pair.masters().is_empty() {
-                return -pair.measured_gap * Vector3::from(pair.normal);
-            }
-            let [slave, master] = [pair.slaves(), pair.masters()]
-                .map(|nodes| nodes.iter().map(place).sum::<Vector3>());
-            slave - master
-        };
-        let all = self.pairs.iter().map(|pair| (pair, apart(pair)));
+        let all = self.pairs.iter().map(|pair| (pair, self.apart(pair, coordinates)));
         let (pairs, apart): (Vec<&SurfacePair>, Vec<Vector3>) =
             all.filter(|(_, apart)| apart.norm() <= within).unzip();
-        let mut moves: Vec<(usize, f64)> = Vec::new();
-        let slaves = pairs.iter().flat_map(|pair| pair.slaves());
-        let nodes: BTreeSet<usize> = slaves.map(|(node, _)| *node).collect();
-        let nodes: Vec<usize> = nodes.into_iter().collect();
-        for axis in 0..dim {
-            let weights = slave_weights(&pairs, &nodes, axis)?;
-            let free = |(pair, apart): (&&SurfacePair, &Vector3)| {
-                if pair.held[axis] { 0.0 } else { -apart[axis] }
-            };
-            let wanted: Vec<f64> = pairs.iter().zip(&apart).map(free).collect();
-            let squared = |y: &[f64]| transpose_times(&weights, &times(&weights, y));
-            let shares = conjugate_gradients(squared, &wanted, || watch.goes_on())?;
-            let places = nodes.iter().map(|node| dim * node + axis);
-            moves.extend(places.zip(times(&weights, &shares)));
+        let motions = Motions::new(self, pairs);
+        let weights = motions.slave_weights()?;
+        let wanted = motions.pairs.iter().zip(&apart).flat_map(|(pair, apart)| {
+            let free = -without(*apart, &self.held(pair.slave));
+            free.as_slice()[..dim].to_vec()
+        });
+        let squared = |y: &[f64]| transpose_times(&weights, &times(&weights, y));
+        let shares = conjugate_gradients(squared, &wanted.collect::<Vec<_>>(), || watch.goes_on())?;
+        let moves = times(&weights, &shares);
+        masters_stay(&motions, &moves)?;
+        for (node, moved) in motions.nodes.iter().zip(moves.chunks_exact(dim)) {
+            coordinates[dim * node..].iter_mut().zip(moved).for_each(|(x, moved)| *x += moved);
         }
-        masters_stay(&pairs, dim, &moves)?;
-        moves.into_iter().for_each(|(entry, moved)| coordinates[entry] += moved);
+        for (second, first) in images.on_second() {
+            if let Ok(place) = motions.nodes.binary_search(&first) {
+                let moved = images.turn(1) * vector(&moves[dim * place..][..dim]);
+                coordinates[dim * second..][..dim]
+                    .iter_mut()
+                    .zip(&moved)
+                    .for_each(|(x, moved)| *x += moved);
+            }
+        }
         Ok(())
+    }
+    /// How far the slave's point of a pair is from the other side's.
+    fn apart(&self, pair: &SurfacePair, coordinates: &[f64]) -> Vector3 {
+        if pair.masters().is_empty() {
+            return -pair.measured_gap * Vector3::from(pair.normal);
+        }
+        let place = |&(node, weight): &Weight| {
+            let (node, by) = self.images.home(node);
+            let x = vector(&coordinates[self.dim * node..][..self.dim]);
+            weight * self.images.image(x, by)
+        };
+        let [slave, master] =
+            [pair.slaves(), pair.masters()].map(|nodes| nodes.iter().map(place).sum::<Vector3>());
+        slave - master
     }
 }

@@ -24,6 +24,12 @@ pub(super) fn pair_of_row(
     normal: Vector3,
 ) -> Result<SurfacePair, Error> {
     let (area, normal) = (row.area, planes.turned(node, normal));
+    let held = planes.held(node, normal)?;
+    // A frame has a tangent along a direction that is held.
+    let tangents = match held {
+        [across] if slave.dim == 3 && across.abs().max() < 1.0 => [across.cross(&normal), *across],
+        _ => plane::tangents(slave.dim, normal),
+    };
     let (nodes, slave_count) = row.into_nodes();
     let point = slave.point(&nodes[..slave_count]);
     let gap = match &nodes[slave_count..] {
@@ -40,11 +46,10 @@ pub(super) fn pair_of_row(
         slave_count,
         point: point.into(),
         normal: normal.into(),
-        tangents: plane::tangents(slave.dim, normal).map(Into::into),
+        tangents: tangents.map(Into::into),
         gap,
         measured_gap: gap,
         area,
-        held: planes.held(node, normal)?,
     })
 }
 

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use super::pairs::{SurfacePair, SurfacePairs};
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::{Vector3, vector};
+use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +73,11 @@ struct Values {
 }
 
 impl Values {
+    /// Those of an image.
+    fn turned(&self, turn: &Matrix3) -> Values {
+        Values { traction: turn * self.traction, slip: turn * self.slip, ..*self }
+    }
+
     fn add(&mut self, other: &Values, (pair, share): (usize, f64), sign: f64) {
         self.traction += sign * share * other.traction;
         self.slip += sign * share * other.slip;
@@ -110,7 +115,13 @@ impl SurfacePairs {
             for (nodes, sign) in sides {
                 for &(node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
                     let share = pair.area * weight.abs();
-                    sums.entry(node).or_default().add(&of_pairs[j], (j, share), sign);
+                    // An image is not there, but its node is.
+                    let (node, by) = self.images.home(node);
+                    let values = match by {
+                        0 => of_pairs[j],
+                        _ => of_pairs[j].turned(&self.images.turn(-by)),
+                    };
+                    sums.entry(node).or_default().add(&values, (j, share), sign);
                 }
             }
         }
@@ -118,6 +129,15 @@ impl SurfacePairs {
             let mut own = Values::default();
             own.add(&of_pairs[j], (j, 1.0), 1.0);
             sums.insert(pair.slave, own);
+        }
+        // On a plane of symmetry what is across it cancels against the other side's.
+        for (node, sum) in sums.iter_mut().filter(|(node, _)| self.held.contains_key(node)) {
+            let held = self.held(*node);
+            [&mut sum.traction, &mut sum.slip].into_iter().for_each(|v| *v = without(*v, &held));
+        }
+        for (second, first) in self.images.on_second() {
+            let image = sums.get(&first).map(|sum| sum.turned(&self.images.turn(1)));
+            sums.extend(image.map(|image| (second, image)));
         }
         let mut fields = NodalFields::default();
         for (node, sum) in sums {

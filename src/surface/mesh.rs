@@ -1,12 +1,12 @@
-//! A surface of a mesh and the other side, as the host hands them over, and what is refused: faces for their shape, and
-//! neighbours of which one is turned over.
+//! A side of the pairing, and what is refused: faces for their shape, and neighbours of which one is turned over.
 
 use std::collections::HashMap;
 
-use super::exact_shape::Obstacle;
 use super::face::Face;
 use super::pairs::Weight;
 use super::shape::{FaceKind, MOST_NODES};
+use super::surfaces::Faces;
+use super::sweep::Bounds;
 use super::watch::Watch;
 use crate::error::{Argument, Error, entry, index};
 use crate::linalg::vector3::{Vector3, vector};
@@ -19,50 +19,6 @@ pub(super) const ON_PLANE: f64 = 1e-6;
 /// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
 const LEAST_AREA: f64 = 1e-10;
 
-/// Faces as lists of nodes.
-#[derive(Clone, Copy, Debug)]
-pub struct Faces<'a> {
-    /// Start of each face in `nodes`, and the length of `nodes`: one entry more than faces.
-    pub start: &'a [usize],
-    /// Nodes, counted from 0, face after face: corners first, in order around the face, then mid nodes
-    /// (the first one between the first two corners), then the centre. Seen from outside the body the
-    /// corners of a face run counterclockwise; in the plane the body lies to the left of a line that
-    /// runs from its first node to its second.
-    pub nodes: &'a [usize],
-}
-
-/// A surface, and what it may touch.
-#[derive(Clone, Copy, Debug)]
-pub struct Surfaces<'a> {
-    /// Space dimension, 2 or 3.
-    pub dim: usize,
-    /// Coordinates of all nodes of the host, `dim` for each node.
-    pub coordinates: &'a [f64],
-    /// The side whose nodes become slaves: lines with 2 or 3 nodes in the plane; in space triangles
-    /// with 3 or 6 nodes and quadrilaterals with 4, 8 or 9, in any mixture.
-    pub slave: Faces<'a>,
-    /// The other side.
-    pub master: Master<'a>,
-}
-
-/// What a surface may touch. A rigid one does not move: rows have slaves alone.
-#[derive(Clone, Copy, Debug)]
-pub enum Master<'a> {
-    /// Faces of the same mesh.
-    Faces(Faces<'a>),
-    /// A rigid mesh: triangles of a scan or of a drawing, or any other faces. Gaps are those that two deformable surfaces of
-    /// the same places have.
-    RigidFaces {
-        /// Coordinates of its nodes, `dim` for each node.
-        coordinates: &'a [f64],
-        /// Its faces, in nodes of its own counted from 0; seen from the body that may touch them the corners
-        /// run counterclockwise, in the plane the obstacle lies to the left of a line.
-        faces: Faces<'a>,
-    },
-    /// A rigid shape: each slave node against its nearest point.
-    RigidShape(Obstacle),
-}
-
 /// One of the two sides, checked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
@@ -71,6 +27,8 @@ pub(super) struct Side<'a> {
     pub(super) dim: usize,
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
+    /// Number of faces that the host has; others behind them are images of theirs.
+    own: usize,
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,
@@ -126,6 +84,13 @@ impl<'a> Side<'a> {
         nodes
     }
 
+    /// Places of nodes that are nearer than this to each other, or to a plane, are the same.
+    pub(super) fn nearness(&self) -> f64 {
+        let nodes = self.faces.nodes.iter();
+        let Bounds { low, high } = Bounds::of(nodes.map(|&node| self.position(node)));
+        ON_PLANE * (high - low).amax()
+    }
+
     /// The largest distance of a node from the mean of all of them: half the diagonal of a rectangle, however it is turned.
     pub(super) fn radius(&self) -> f64 {
         let nodes = self.all_nodes();
@@ -149,9 +114,31 @@ impl<'a> Side<'a> {
         FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked")
     }
 
+    pub(super) fn is_slave(&self) -> bool {
+        self.argument == Argument::SlaveFaces
+    }
+
+    /// `true` of a rigid mesh with nodes of its own.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.argument == Argument::Obstacle
+    }
+
+    /// `true` of a face that is the image of one of the host.
+    pub(super) fn is_image(&self, face: usize) -> bool {
+        face >= self.own
+    }
+
+    /// The number of a face for a message.
+    pub(super) fn named(&self, face: usize) -> String {
+        if self.is_image(face) {
+            return format!("{} of a neighbouring sector", index(face % self.own));
+        }
+        index(face)
+    }
+
     /// An error about a face.
     pub(super) fn refuse(&self, face: usize, what: &str) -> Error {
-        Error::invalid(self.argument, format!("{} face {} {what}", self.name, index(face)))
+        Error::invalid(self.argument, format!("{} face {} {what}", self.name, self.named(face)))
     }
 
     /// A side whose lists are in order. `argument` is that of its faces.
@@ -161,8 +148,8 @@ impl<'a> Side<'a> {
         (dim, coordinates): (usize, &'a [f64]),
         faces: Faces<'a>,
     ) -> Result<Side<'a>, Error> {
-        let (is_axisymmetric, scale) = (false, 1.0);
-        let side = Side { name, argument, dim, coordinates, faces, is_axisymmetric, scale };
+        let (own, is_axisymmetric, scale) = (faces.start.len().saturating_sub(1), false, 1.0);
+        let side = Side { name, argument, dim, coordinates, faces, own, is_axisymmetric, scale };
         if !coordinates.len().is_multiple_of(dim) {
             let message =
                 format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
@@ -174,7 +161,9 @@ impl<'a> Side<'a> {
 
     /// Master faces of the same mesh, whose nodes must not be on this side.
     pub(super) fn opposite(&self, faces: Faces<'a>) -> Result<Side<'a>, Error> {
-        let side = Side { name: "master", argument: Argument::MasterFaces, faces, ..*self };
+        let (name, argument) = ("master", Argument::MasterFaces);
+        let own = faces.start.len().saturating_sub(1);
+        let side = Side { name, argument, faces, own, ..*self };
         side.check_lists()?;
         let mut is_own = vec![false; self.coordinates.len() / self.dim];
         self.faces.nodes.iter().for_each(|&node| is_own[node] = true);
@@ -191,7 +180,7 @@ impl<'a> Side<'a> {
         Ok(side)
     }
 
-    /// The side with other nodes and faces.
+    /// The side with other nodes and faces, behind its own those of images.
     pub(super) fn with(self, coordinates: &'a [f64], faces: Faces<'a>) -> Side<'a> {
         Side { coordinates, faces, ..self }
     }

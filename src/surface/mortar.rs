@@ -25,7 +25,7 @@ use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
 use super::true_shape::TrueSides;
 use super::watch::Watch;
-use crate::error::{Error, index};
+use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
 /// What a slave face has over master faces, if it lies over any, and `true` if it has the functions of a face that is
@@ -111,8 +111,15 @@ impl<'a> Search<'a> {
     ) -> Result<Cover, Error> {
         let normal = face.middle_normal();
         let mut parts = self.opposite(at, (face, normal), watch)?;
-        let Search { sides: [slave, _], planes, own, candidates, shapes, overlaps, polynomials } =
-            self;
+        let Search {
+            sides: [slave, master],
+            planes,
+            own,
+            candidates,
+            shapes,
+            overlaps,
+            polynomials,
+        } = self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
         keep(&mut parts, points, |opposite, points| {
             let from = face.position(points[0].slave);
@@ -123,7 +130,8 @@ impl<'a> Search<'a> {
         keep(&mut parts, points, |opposite, _| opposite.part.distance.abs() <= most);
         let share = |parts: &[Opposite<'_>]| parts.iter().map(|part| part.part.share).sum::<f64>();
         if share(&parts) > 1.0 + SAME_COVER {
-            let over: Vec<String> = parts.iter().map(|opposite| index(opposite.at)).collect();
+            let over: Vec<String> =
+                parts.iter().map(|opposite| master.named(opposite.at)).collect();
             let what = format!(
                 "lies under master faces that lie over each other, among {}: leave the hidden ones out, or \
                  give a smaller search distance",
@@ -168,7 +176,7 @@ impl<'a> Search<'a> {
             let before = overlaps.points.len();
             let wanted = |distance| reach.holds(distance);
             let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
-                let opposite = index(opposite);
+                let opposite = master.named(opposite);
                 let what = format!(
                     "cannot be projected on master face {opposite}: one of them is turned over, strongly curved \
                      or has a corner that is nearly straight, as seen along the slave's normal; refine there, or \

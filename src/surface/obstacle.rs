@@ -13,6 +13,7 @@ use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
+use super::with_images::{own_pairs, with_images};
 use crate::error::{Argument, Error, index};
 
 fn refuse<T>(message: &str) -> Result<T, Error> {
@@ -30,10 +31,12 @@ pub(super) fn pairs(
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let SurfaceSettings { search_distance, axisymmetric, close_within, clearance, .. } = *settings;
+    let SurfaceSettings { search_distance, axisymmetric, sector, close_within, clearance, .. } =
+        *settings;
     let settings = &SurfaceSettings {
         search_distance,
         axisymmetric,
+        sector,
         close_within,
         clearance,
         ..Default::default()
@@ -42,10 +45,27 @@ pub(super) fn pairs(
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
     let side = side.checked((unit.inside, axisymmetric), watch)?;
-    let reach = side.scale * search_distance.unwrap_or(f64::INFINITY);
-    let planes = OnPlanes::new(&side, (&settings.symmetry, axisymmetric))?;
+    let found = match sector {
+        None => facing(&side, &obstacle, settings, watch)?,
+        Some(sector) => {
+            let (images, [all, _]) = with_images(sector, [&side; 2], watch)?;
+            own_pairs(facing(&all.on(&side), &obstacle, settings, watch)?, images, side.count())
+        }
+    };
+    unit.of_host(found, settings)
+}
+
+/// The pairs of a side that is checked.
+fn facing(
+    side: &Side<'_>,
+    obstacle: &ExactShape,
+    settings: &SurfaceSettings,
+    watch: &mut Watch<'_, '_>,
+) -> Result<SurfacePairs, Error> {
+    let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
+    let planes = OnPlanes::new(side, settings)?;
     watch.expects(side.count());
-    self_overlap::check(&side, &mut SearchFaces::new(&side, watch)?, reach, watch)?;
+    self_overlap::check(side, &mut SearchFaces::new(side, watch)?, reach, watch)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let (away, normal) = obstacle.facing(side.position(node));
@@ -58,21 +78,23 @@ pub(super) fn pairs(
         }
         facing.insert(node, (away, normal.unwrap_or_default()));
     }
-    let looking_away = looking_away(&side, &obstacle);
+    let looking_away = looking_away(side, obstacle);
     let [search_distance, overlap_distance] = [reach; 2];
     let mut report =
         SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    let rows = whole_rows(meets, (&side, &planes), &mut report, watch)?;
+    let rows = whole_rows(meets, (side, &planes), &mut report, watch)?;
     let pair = |node, row: Row| {
-        let pair = pair_of_row([&side; 2], &planes, (node, row), facing[&node].1)?;
+        let pair = pair_of_row([side; 2], &planes, (node, row), facing[&node].1)?;
         let slaves = pair.slaves().iter();
         let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
         let gap = slaves.clone().map(|(node, weight)| weight * facing[node].0).sum();
         let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    unit.of_host(pairs_of_rows(&side, rows, report, pair, watch)?, settings)
+    let mut found = pairs_of_rows(side, rows, report, pair, watch)?;
+    planes.tell(&mut found.held);
+    Ok(found)
 }
 
 /// Number of faces whose middles look away from a shape.

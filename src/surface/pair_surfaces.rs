@@ -2,13 +2,15 @@
 //! not move.
 
 use super::candidates::{Candidates, Reach, SearchFaces};
-use super::mesh::{Master, Side, Surfaces};
+use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings};
+use super::surfaces::{Master, Surfaces};
 use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
+use super::with_images::{own_pairs, with_images};
 use super::{mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
@@ -30,9 +32,9 @@ use crate::problem::checked_dim;
 ///   [`Pairing::DualMortar`] alone: otherwise the nearest counts), a negative radius of a body of revolution;
 /// - [`Argument::Obstacle`] of a shape: a direction that is zero, a radius that is not positive, a node on the axis or in the
 ///   centre;
-/// - [`Argument::Settings`]: a search distance that is not positive; a plane of symmetry across no axis of the space,
-///   with slave nodes on both sides, or with slave faces in it; a choice for rims with
-///   [`Pairing::NodeToSurface`]; bodies of revolution in space;
+/// - [`Argument::Settings`]: a search distance that is not positive; a plane of symmetry whose normal is no direction of the
+///   space, with slave nodes on both sides, or with slave faces in it; a sector that is none, or whose slave faces do not
+///   match on its boundaries; a choice for rims with [`Pairing::NodeToSurface`]; bodies of revolution in space;
 /// - [`Error::Stopped`]: the time limit is used up, or the callback cancels.
 pub fn pair_surfaces(
     &Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>,
@@ -67,30 +69,50 @@ fn pair_sides(
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
-    let planes = OnPlanes::new(&slave, (&settings.symmetry, settings.axisymmetric))?;
+    let found = match settings.sector {
+        None => search([&slave, &master], settings, watch)?,
+        Some(sector) => {
+            let (images, sides) = with_images(sector, [&slave, &master], watch)?;
+            let sides = [sides[0].on(&slave), sides[1].on(&master)];
+            own_pairs(search(sides.each_ref(), settings, watch)?, images, slave.count())
+        }
+    };
     watch.goes_on()?;
-    let mut own = SearchFaces::new(&slave, watch)?;
-    let mut opposite = SearchFaces::new(&master, watch)?;
-    let (reach, span) =
-        reach([&slave, &master], [own.tree.bounds(), opposite.tree.bounds()], settings);
+    let mut found = unit.of_host(found, settings)?;
+    watch.goes_on()?;
+    found.report.overlapping_and_rough = overlapping_and_rough(&slave, &found, watch)?;
+    Ok(found)
+}
+
+/// The pairs of two sides that are checked.
+fn search(
+    sides: [&Side<'_>; 2],
+    settings: &SurfaceSettings,
+    watch: &mut Watch<'_, '_>,
+) -> Result<SurfacePairs, Error> {
+    let [slave, master] = sides;
+    let planes = OnPlanes::new(slave, settings)?;
+    watch.goes_on()?;
+    let mut own = SearchFaces::new(slave, watch)?;
+    let mut opposite = SearchFaces::new(master, watch)?;
+    let (reach, span) = reach(sides, [own.tree.bounds(), opposite.tree.bounds()], settings);
     watch.expects(2 * slave.count() + master.count());
-    self_overlap::check(&slave, &mut own, reach.overlap, watch)?;
+    self_overlap::check(slave, &mut own, reach.overlap, watch)?;
     if settings.pairing == Pairing::DualMortar {
-        self_overlap::check(&master, &mut opposite, reach.overlap, watch)?;
+        self_overlap::check(master, &mut opposite, reach.overlap, watch)?;
     }
     let candidates = Candidates::new(opposite, reach, span);
-    let sides = [&slave, &master];
     let found = match settings.pairing {
         Pairing::DualMortar => mortar::pairs(sides, &planes, (own, candidates), settings, watch),
         Pairing::NodeToSurface => {
             node_to_surface::pairs(sides, &planes, (own, candidates), settings.normals, watch)
         }
     };
-    let found = found?;
-    watch.goes_on()?;
-    let mut found = unit.of_host(found, settings)?;
-    watch.goes_on()?;
-    found.report.overlapping_and_rough = overlapping_and_rough(&slave, &found, watch)?;
+    let mut found = found?;
+    planes.tell(&mut found.held);
+    if !master.is_rigid() {
+        OnPlanes::new(master, settings)?.tell(&mut found.held);
+    }
     Ok(found)
 }
 

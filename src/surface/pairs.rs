@@ -1,6 +1,10 @@
 //! Contact pairs from surfaces: what the caller gets.
 
+use std::collections::BTreeMap;
+
+use super::images::Images;
 use crate::linalg::tolerances::ROUNDING;
+use crate::linalg::vector3::{self, Vector3, without};
 
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
@@ -13,7 +17,8 @@ pub type Weight = (usize, f64);
 pub struct SurfacePair {
     /// The slave node that the row belongs to. No other pair belongs to it.
     pub slave: usize,
-    /// The nodes of the row, slaves by node, then masters by node: one list is given back in half the time of two.
+    /// The nodes of the row, slaves by node, then masters by node: one list is given back in half the time of two. In a sector
+    /// some may be images, as [`SurfacePairs::images`] counts them.
     pub nodes: Vec<Weight>,
     /// Number of slaves among them.
     pub slave_count: usize,
@@ -29,9 +34,6 @@ pub struct SurfacePair {
     pub measured_gap: f64,
     /// The area that the pair carries: the pressure is the normal force of the row over it.
     pub area: f64,
-    /// The axes across which the slave node stands on a plane of symmetry: along them the pair neither moves nor
-    /// carries a force, and the rows that are handed out say so.
-    pub held: [bool; 3],
 }
 
 /// A slave node with little cover whose row is in those of others.
@@ -111,6 +113,11 @@ pub struct SurfacePairs {
     pub axisymmetric: bool,
     /// Slave nodes without a pair: nothing lies over them, or they have little cover and were folded.
     pub unpaired: Vec<usize>,
+    /// Nodes of both sides that stand on planes of symmetry, with orthonormal directions across these. Along them a pair of such
+    /// a slave node neither moves nor carries a force, and the rows that are handed out say so.
+    pub held: BTreeMap<usize, Vec<[f64; 3]>>,
+    /// The images of nodes in the neighbours of a sector.
+    pub images: Images,
     /// The report on the pairing.
     pub report: SurfaceReport,
 }
@@ -127,10 +134,13 @@ pub struct PairArrays {
     pub slaves: Vec<usize>,
     /// Start of each pair's masters, in general rows of all its nodes; `count + 1` entries.
     pub master_start: Vec<usize>,
-    /// Degrees of freedom of the masters, in general rows of all nodes, `dim` for each.
+    /// Degrees of freedom of the masters, in general rows of all nodes, `dim` for each; one for each of [`Self::vectors`].
     pub masters: Vec<usize>,
-    /// Weights of the masters, in general rows of all nodes with their signs.
+    /// Weights of the masters, in general rows of all nodes with their signs; empty with [`Self::vectors`].
     pub weights: Vec<f64>,
+    /// General rows by degree of freedom, of a sector and of planes of symmetry that are across no axis: `dim` numbers for each
+    /// of `masters`. Otherwise empty.
+    pub vectors: Vec<f64>,
     /// Normals, `dim` for each pair.
     pub normals: Vec<f64>,
     /// First tangents, `dim` for each pair.
@@ -161,6 +171,11 @@ impl SurfacePair {
     }
 }
 
+/// `true` if one of orthonormal directions is along an axis.
+fn is_along(directions: &[Vector3], axis: usize) -> bool {
+    directions.iter().any(|along| along.abs() == vector3::axis(axis))
+}
+
 /// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
 pub(super) fn without_rounding(distance: f64, size: f64) -> f64 {
     if distance.abs() <= ROUNDING * size { 0.0 } else { distance }
@@ -171,20 +186,46 @@ impl PairArrays {
     /// have the degree of freedom of the pair's slave, from which the weights cancel: an equation `0 = d`.
     fn push(
         &mut self,
-        pair: &SurfacePair,
+        (pair, held): (&SurfacePair, &[Vector3]),
         (nodes, dofs): (impl Iterator<Item = Weight>, &NodeDofs),
         (gap, area): (f64, f64),
     ) {
         let dim = self.dim;
-        self.count += 1;
         for (node, weight) in nodes {
             for axis in 0..dim {
-                let of_row = if pair.held[axis] { pair.slave } else { node };
+                let of_row = if is_along(held, axis) { pair.slave } else { node };
                 self.masters.push(dofs.along(axis, of_row, dim));
             }
             self.weights.push(weight);
         }
         self.master_start.push(self.weights.len());
+        self.end(pair, gap, area);
+    }
+
+    /// Adds a pair as a row by degree of freedom: of images those of their nodes, turned; nothing along what is held.
+    fn push_vectors(
+        &mut self,
+        (pair, held): (&SurfacePair, &[Vector3]),
+        nodes: impl Iterator<Item = Weight>,
+        (images, dofs): (&Images, &NodeDofs),
+    ) {
+        let dim = self.dim;
+        for (node, weight) in nodes {
+            let (node, turn) = images.of(node);
+            for axis in 0..dim {
+                let moved = turn * vector3::axis(axis);
+                let vector = weight * without(moved, held);
+                self.masters.push(dofs.along(axis, node, dim));
+                self.vectors.extend(&vector.as_slice()[..dim]);
+            }
+        }
+        self.master_start.push(self.masters.len());
+        self.end(pair, pair.gap, pair.area);
+    }
+
+    fn end(&mut self, pair: &SurfacePair, gap: f64, area: f64) {
+        let dim = self.dim;
+        self.count += 1;
         self.normals.extend(&pair.normal[..dim]);
         self.tangents.extend(&pair.tangents[0][..dim]);
         self.gaps.push(gap);
@@ -204,11 +245,13 @@ impl SurfacePairs {
     /// If a list of degrees of freedom ends before the last node of a pair.
     pub fn rows_on(&self, dofs: &NodeDofs) -> PairArrays {
         let (dim, count) = (self.dim, self.pairs.len());
-        let entries = self.pairs.iter().map(|pair| pair.nodes.len()).sum();
+        let entries: usize = self.pairs.iter().map(|pair| pair.nodes.len()).sum();
+        let by_dof = self.are_by_dof();
         let mut arrays = PairArrays {
             dim,
             masters: Vec::with_capacity(dim * entries),
-            weights: Vec::with_capacity(entries),
+            weights: Vec::with_capacity(if by_dof { 0 } else { entries }),
+            vectors: Vec::with_capacity(if by_dof { dim * dim * entries } else { 0 }),
             normals: Vec::with_capacity(dim * count),
             tangents: Vec::with_capacity(dim * count),
             master_start: vec![0],
@@ -217,16 +260,37 @@ impl SurfacePairs {
         for pair in &self.pairs {
             let masters = pair.masters().iter().map(|&(node, weight)| (node, -weight));
             let nodes = pair.slaves().iter().copied().chain(masters);
-            arrays.push(pair, (nodes, dofs), (pair.gap, pair.area));
+            let of_pair = (pair, &self.held(pair.slave)[..]);
+            match by_dof {
+                true => arrays.push_vectors(of_pair, nodes, (&self.images, dofs)),
+                false => arrays.push(of_pair, (nodes, dofs), (pair.gap, pair.area)),
+            }
         }
         arrays
+    }
+
+    /// `true` if rows of nodes, with one weight for all axes, do not say it.
+    fn are_by_dof(&self) -> bool {
+        let is_skewed = |pair: &SurfacePair| {
+            let held = self.held(pair.slave);
+            (0..self.dim).filter(|&axis| is_along(&held, axis)).count() < held.len()
+        };
+        !self.images.are_none() || self.pairs.iter().any(is_skewed)
+    }
+
+    /// The directions across planes of symmetry on which a node stands.
+    pub(super) fn held(&self, node: usize) -> Vec<Vector3> {
+        self.held.get(&node).into_iter().flatten().copied().map(Vector3::from).collect()
     }
 
     /// The pairs in the form with one slave node, `u_slave - Σ w u`, to which a row is brought by a
     /// division by the weight `a` of its slave: gap and `d` become `1 / a` times what they were, force
     /// and area `a` times. `None` if a row has slave nodes to which other pairs belong: the mid nodes of
-    /// quadratic faces, which [`Self::rows`] has too.
+    /// quadratic faces, which [`Self::rows`] has too; or if rows are by degree of freedom.
     pub fn one_slave_each(&self) -> Option<PairArrays> {
+        if self.are_by_dof() {
+            return None;
+        }
         let dim = self.dim;
         let mut arrays = PairArrays { dim, master_start: vec![0], ..PairArrays::default() };
         let belongs = |node| self.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok();
@@ -240,13 +304,15 @@ impl SurfacePairs {
             masters.extend(pair.masters().iter().map(|(node, weight)| (*node, weight / own)));
             arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
             let dofs = &NodeDofs::PerNode(dim);
-            arrays.push(pair, (masters.into_iter(), dofs), (pair.gap / own, pair.area * own));
+            let held = self.held(pair.slave);
+            let of_rest = (pair.gap / own, pair.area * own);
+            arrays.push((pair, &held), (masters.into_iter(), dofs), of_rest);
         }
         Some(arrays)
     }
 
     /// The pairs whose slave node stands on a plane of symmetry.
     pub fn on_symmetry(&self) -> impl Iterator<Item = usize> {
-        (0..self.pairs.len()).filter(|&pair| self.pairs[pair].held.contains(&true))
+        (0..self.pairs.len()).filter(|&pair| self.held.contains_key(&self.pairs[pair].slave))
     }
 }

@@ -10,10 +10,11 @@ use std::collections::HashSet;
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::exact_shape::Obstacle;
 use super::face::Face;
-use super::mesh::{Faces, Master, Side, Surfaces};
+use super::mesh::Side;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::Local;
+use super::surfaces::{Faces, Master, Surfaces};
 use super::sweep::Hull;
 use super::watch::Watch;
 use crate::error::{Argument, Error};
@@ -154,6 +155,10 @@ impl KeptSurfaces {
         for node in pairs.pairs.iter().map(|pair| pair.slave).chain(folded) {
             let place = self.nodes.binary_search(&node);
             place.into_iter().for_each(|place| nodes[place] = true);
+        }
+        for (second, first) in pairs.images.on_second() {
+            let [second, first] = [second, first].map(|node| self.nodes.binary_search(&node));
+            second.into_iter().zip(first).for_each(|(second, first)| nodes[second] = nodes[first]);
         }
         pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
         let of_pairs = |at: &usize| {

@@ -8,7 +8,7 @@ use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
 use super::sweep::Sweep;
 use super::watch::Watch;
-use crate::error::{Error, index};
+use crate::error::Error;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
 /// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees.
@@ -62,10 +62,14 @@ pub(super) fn check(
 }
 
 fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
+    let remedy = if side.is_image(at) {
+        "give the axis of the sector, and the number of sectors of the whole"
+    } else {
+        "leave one of them out, or pair them in two calls if they belong to two contacts"
+    };
     let what = format!(
-        "lies upon face {}, with {:.0} % of the smaller one: the area would count twice; leave one of them \
-         out, or pair them in two calls if they belong to two contacts",
-        index(other),
+        "lies upon face {}, with {:.0} % of the smaller one: the area would count twice; {remedy}",
+        side.named(other),
         100.0 * share.min(1.0)
     );
     side.refuse(at, &what)

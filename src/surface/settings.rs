@@ -1,7 +1,8 @@
 //! Settings of the pairing.
 
 use super::exact_shape::Obstacle;
-use super::symmetry::SymmetryPlane;
+use super::sector::Sector;
+use super::symmetry_plane::SymmetryPlane;
 use crate::error::{Argument, Error};
 
 /// How the rows are made.
@@ -72,6 +73,10 @@ pub struct SurfaceSettings {
     /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
     /// a force across it, as in the whole body, and its normal is in the plane.
     pub symmetry: Vec<SymmetryPlane>,
+    /// The sector of a body that repeats about an axis, whose nodes on the second boundary are images of those on the first.
+    /// Pairs see the neighbours, and are those of the whole body: of two nodes that are images of each other the first has the
+    /// pair, and the host's displacements obey `u = Q u'`.
+    pub sector: Option<Sector>,
     /// Normals of the pairs.
     pub normals: Normals,
     /// The treatment of nodes with little cover.
@@ -98,7 +103,7 @@ impl SurfaceSettings {
 
     /// # Errors
     /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
-    /// space.
+    /// space, or of which a sector is given.
     pub(super) fn check(&self, dim: usize) -> Result<(), Error> {
         let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
         // Written so that NaN is refused.
@@ -108,6 +113,11 @@ impl SurfaceSettings {
         if self.axisymmetric && dim == 3 {
             return refuse(
                 "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions",
+            );
+        }
+        if self.axisymmetric && self.sector.is_some() {
+            return refuse(
+                "axisymmetric: a body of revolution has no sector, leave one of them out",
             );
         }
         let (within, shift) = (self.close_within, self.clearance);

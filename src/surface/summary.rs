@@ -62,10 +62,16 @@ impl SurfacePairs {
             let (node, into) = (index(fold.node), index(fold.into));
             found += &format!(", at most {} away ({node} in that of {into})", short(fold.distance));
         }
-        match self.on_symmetry().count() {
-            0 => found,
-            on => format!("{found}; {on} of the pairs on planes of symmetry"),
+        let on_planes = self.on_symmetry().count();
+        if on_planes > 0 {
+            found += &format!("; {on_planes} of the pairs on planes of symmetry");
         }
+        if !self.images.are_none() {
+            let first = self.images.on_first();
+            let on = self.pairs.iter().filter(|pair| first.contains(&pair.slave)).count();
+            found += &format!("; {on} of the pairs on the boundary of the sector");
+        }
+        found
     }
 
     fn why_none(&self) -> String {

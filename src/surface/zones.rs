@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::mesh::Faces;
 use super::pairs::{SurfacePairs, SurfaceReport};
+use super::surfaces::Faces;
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::vector3::Vector3;
 
@@ -48,8 +48,12 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<SurfacePairs, Error> {
         if contact.axisymmetric != joined.axisymmetric {
             return refuse(named("is of revolution and not, or not and is, unlike"));
         }
+        if joined.images.join(&contact.images).is_err() {
+            return refuse(named("is in another sector than"));
+        }
         joined.pairs.extend(contact.pairs.iter().cloned());
         joined.unpaired.extend(&contact.unpaired);
+        joined.held.extend(contact.held.clone());
         joined.report.add(&contact.report);
     }
     match shared_face(zones) {

@@ -47,7 +47,7 @@ impl Setting {
 
     fn planes(&self) -> Vec<SymmetryPlane> {
         let axes = 0..if self.named { self.dim - 1 } else { 0 };
-        axes.map(|axis| SymmetryPlane { axis, at: 0.0 }).collect()
+        axes.map(|axis| SymmetryPlane::across(axis, 0.0)).collect()
     }
 }
 

@@ -23,6 +23,7 @@ mod press_fit;
 mod quadrilaterals;
 mod reach;
 mod rows;
+mod sectors;
 mod steps;
 mod symmetry;
 mod ties;

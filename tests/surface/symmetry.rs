@@ -10,17 +10,19 @@ use crate::common::solids::{Cells, Order, Point, Solid};
 use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, grid, pair, unlimited};
 use fastrand::Rng;
 use signorini::reduce::ContactPairs;
-use signorini::surface::{Normals, Pairing, Rims, SurfacePairs, SurfaceSettings, SymmetryPlane};
-use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, State, Status};
+use signorini::surface::{
+    Normals, PairResults, Pairing, Rims, SurfacePairs, SurfaceSettings, SymmetryPlane,
+};
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 
 /// Two bodies, or what is left of them on one side of planes of symmetry at zero.
-struct Bodies {
-    dim: usize,
-    nodes: Vec<Point>,
+pub struct Bodies {
+    pub dim: usize,
+    pub nodes: Vec<Point>,
     /// Entries of the stiffness in its lower triangle; places may repeat.
-    entries: Vec<(usize, usize, f64)>,
+    pub entries: Vec<(usize, usize, f64)>,
     /// Slave and master.
-    faces: [Vec<Vec<usize>>; 2],
+    pub faces: [Vec<Vec<usize>>; 2],
 }
 
 /// A face seen in the mirror, which turns it over. Corners first, then mid nodes, then the centre.
@@ -51,11 +53,16 @@ impl Bodies {
             let lines: Vec<&[f64]> = lines.iter().map(|line| &line[..]).collect();
             Solid::new(&lines, kinds[body], materials[body], (0.15, rng))
         });
+        Bodies::of(&solids)
+    }
+
+    /// Two blocks, one upon the other.
+    pub fn of(solids: &[Solid; 2]) -> Self {
         let first = solids[0].nodes.len();
         let shifted = |face: &Vec<usize>| face.iter().map(|node| first + node).collect();
         let lower = solids[1].lower.iter().map(shifted).collect();
         Bodies {
-            dim,
+            dim: solids[0].dim,
             nodes: [&solids[0].nodes[..], &solids[1].nodes].concat(),
             entries: Solid::stiffness(&solids.each_ref()).entries().collect(),
             faces: [lower, solids[0].upper.clone()],
@@ -63,7 +70,7 @@ impl Bodies {
     }
 
     /// With their mirror image across an axis. The first nodes are those of before.
-    fn reflected(&self, axis: usize) -> Self {
+    pub fn reflected(&self, axis: usize) -> Self {
         let (dim, mut nodes) = (self.dim, self.nodes.clone());
         let image: Vec<usize> = (0..self.nodes.len())
             .map(|node| {
@@ -95,7 +102,7 @@ impl Bodies {
         }
     }
 
-    fn stiffness(&self) -> Stiffness {
+    pub fn stiffness(&self) -> Stiffness {
         let mut columns = vec![BTreeMap::new(); self.dim * self.nodes.len()];
         for &(i, j, value) in &self.entries {
             *columns[j].entry(i).or_insert(0.0) += value;
@@ -116,7 +123,7 @@ impl Bodies {
     fn found(&self, upper_is_slave: bool, planes: usize) -> SurfacePairs {
         let [lower, upper] = [&self.faces[1], &self.faces[0]];
         let sides = if upper_is_slave { [&upper[..], lower] } else { [&lower[..], upper] };
-        let symmetry = (0..planes).map(|axis| SymmetryPlane { axis, at: 0.0 }).collect();
+        let symmetry = (0..planes).map(|axis| SymmetryPlane::across(axis, 0.0)).collect();
         let settings = SurfaceSettings { symmetry, ..SurfaceSettings::default() };
         let mut found = pair(self.dim, &self.nodes, sides, &settings).unwrap();
         for pair in &mut found.pairs {
@@ -176,29 +183,51 @@ impl Bodies {
         Solved {
             traction: (0..arrays.count).map(|j| (found.pairs[j].slave, traction(j))).collect(),
             states: solution.certificate.states.clone(),
+            fields: self.fields(&found, &solution, nodes),
             u,
         }
     }
 }
 
+impl Bodies {
+    /// Pressures and tractions of both sides at the first nodes.
+    fn fields(&self, found: &SurfacePairs, solution: &Solution, nodes: usize) -> Vec<f64> {
+        let results = PairResults {
+            gap: None,
+            reference_slip: None,
+            d: &solution.d,
+            force: &solution.certificate.force,
+        };
+        let fields = found.fields(&results).unwrap();
+        let own = (0..fields.nodes.len()).filter(|&k| fields.nodes[k] < nodes);
+        own.flat_map(|k| {
+            let traction = &fields.traction[self.dim * k..self.dim * (k + 1)];
+            [&[fields.pressure[k]], traction].concat()
+        })
+        .collect()
+    }
+}
+
 struct Solved {
     traction: BTreeMap<usize, Vec<f64>>,
+    /// Pressures and tractions at nodes of both sides.
+    fields: Vec<f64>,
     states: Vec<State>,
     u: Vec<f64>,
 }
 
 impl Solved {
     /// The largest difference of tractions, and of displacements, beside the largest.
-    fn differs(&self, whole: &Solved) -> [f64; 2] {
+    fn differs(&self, whole: &Solved) -> [f64; 3] {
         let flat = |traction: &BTreeMap<usize, Vec<f64>>| -> Vec<f64> {
             self.traction.keys().flat_map(|node| traction[node].clone()).collect()
         };
-        [(flat(&self.traction), flat(&whole.traction)), (self.u.clone(), whole.u.clone())].map(
-            |(a, b)| {
-                let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-                largest(&apart) / largest(&b)
-            },
-        )
+        let fields = (self.fields.clone(), whole.fields.clone());
+        let tractions = (flat(&self.traction), flat(&whole.traction));
+        [tractions, (self.u.clone(), whole.u.clone()), fields].map(|(a, b)| {
+            let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
+            largest(&apart) / largest(&b)
+        })
     }
 }
 
@@ -209,7 +238,7 @@ fn check(
     held: usize,
     upper_is_slave: bool,
     context: &str,
-) -> ([f64; 2], Vec<State>) {
+) -> ([f64; 3], Vec<State>) {
     let whole = (0..held).fold(None, |whole: Option<Bodies>, axis| {
         Some(whole.as_ref().unwrap_or(part).reflected(axis))
     });
@@ -298,7 +327,7 @@ fn moved_nodes_are_those_of_the_whole_surface() {
             found.adjust(f64::INFINITY, &mut coordinates, &mut unlimited()).unwrap();
             coordinates
         };
-        let planes = [0, 1].map(|axis| SymmetryPlane { axis, at: 0.0 });
+        let planes = [0, 1].map(|axis| SymmetryPlane::across(axis, 0.0));
         let (of_part, of_whole) = (moved(&part, planes.to_vec()), moved(&whole, vec![]));
         let before = part.nodes.concat();
         let most = before.iter().zip(&of_part).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -344,7 +373,7 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
                 pair(3, &bodies.nodes, bodies.faces.each_ref().map(|faces| &faces[..]), &settings)
                     .unwrap()
             };
-            let planes = [0, 1].map(|axis| SymmetryPlane { axis, at: 0.0 });
+            let planes = [0, 1].map(|axis| SymmetryPlane::across(axis, 0.0));
             let (of_part, of_whole) = (found(&part, planes.to_vec()), found(&whole, vec![]));
             assert!(of_part.on_symmetry().count() >= 4, "{shape:?}");
             for pair in &of_part.pairs {
@@ -352,9 +381,13 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
                     of_whole.pairs.binary_search_by_key(&pair.slave, |pair| pair.slave).unwrap();
                 let same = &of_whole.pairs[at];
                 let context = format!("{shape:?}, {pairing:?}, {normals:?}, node {}", pair.slave);
-                let on = pair.held.iter().filter(|held| **held).count();
+                let held = of_part.held.get(&pair.slave).map_or(&[][..], Vec::as_slice);
+                let on = held.len();
                 let place = part.nodes[pair.slave];
-                assert_eq!(pair.held, [place[0] == 0.0, place[1] == 0.0, false], "{context}");
+                let across = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].into_iter().zip(place);
+                let across: Vec<_> =
+                    across.filter(|(_, x)| *x == 0.0).map(|(axis, _)| axis).collect();
+                assert_eq!(held, across, "{context}");
                 let apart = |a: f64, b: f64| (a - b).abs();
                 for (a, b) in pair.normal.iter().zip(same.normal) {
                     assert!(
@@ -380,7 +413,6 @@ fn wrong_planes_are_refused() {
     let sheet = |rng: &mut Rng| Sheet::rectangle(Shape::Q4, [2, 2], [[0.0, 1.0]; 2], (0.0, rng));
     let sheets = TwoSheets::new(3, sheet(rng), sheet(rng).mapped(|[x, y, _]| [x, y, 0.1]).turned());
     for (axis, at, sentence) in [
-        (3, 0.0, "plane of symmetry 0: there is no axis 3, the last one is 2"),
         (0, f64::NAN, "plane of symmetry 0: it stands at NaN, which is not finite"),
         (
             1,
@@ -390,14 +422,14 @@ fn wrong_planes_are_refused() {
         (2, 0.0, "a plane of symmetry has slave faces in it, at node 0: leave these faces out"),
     ] {
         for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
-            let symmetry = vec![SymmetryPlane { axis, at }];
+            let symmetry = vec![SymmetryPlane::across(axis, at)];
             let settings = SurfaceSettings { pairing, symmetry, ..SurfaceSettings::default() };
             let error = sheets.pair(&settings).unwrap_err().to_string();
             assert!(error.contains(sentence), "{error}");
         }
     }
     // A plane that the surface does not meet changes nothing: another contact zone may.
-    let symmetry = vec![SymmetryPlane { axis: 0, at: -1.0 }];
+    let symmetry = vec![SymmetryPlane::across(0, -1.0)];
     let far = sheets.pair(&SurfaceSettings { symmetry, ..SurfaceSettings::default() }).unwrap();
     assert_eq!(far, sheets.pair(&SurfaceSettings::default()).unwrap());
 }

@@ -306,7 +306,7 @@ fn fitted_quarters_are_those_of_the_whole() {
             let found = sheets.pair(&settings).unwrap().pairs;
             found.into_iter().map(|pair| (sheets.nodes[pair.slave], pair.gap)).collect::<Vec<_>>()
         };
-        let planes = [0, 1].map(|axis| SymmetryPlane { axis, at: 0.0 });
+        let planes = [0, 1].map(|axis| SymmetryPlane::across(axis, 0.0));
         let [quarter, whole, unnamed] =
             [pairs(0.0, planes.to_vec()), pairs(-1.0, vec![]), pairs(0.0, vec![])];
         let differs = |part: &[(Point, f64)]| {

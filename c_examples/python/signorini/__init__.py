@@ -50,7 +50,8 @@ or that of the system. Needs numpy. Threads may share everything here.
 from ._condensed import certify, prove, solve, write
 from ._constants import (ABI_VERSION, Fallback, Law, Method, ModelKind, Normals, Pairing, Proof, Remark,
                          Rims, Search, State, Status, Triangle, Uniqueness)
-from ._equations import read_equations, rigid_equations, section_equations, turned_equations
+from ._equations import (read_equations, rigid_equations, section_equations, sector_equations,
+                         turned_equations)
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
@@ -59,7 +60,7 @@ from ._mesh import write_mesh, write_series
 from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
-from ._surfaces import (Cone, Cylinder, Fields, Penetration, Plane, Resultant, RigidFaces, Sphere, SurfacePairs, Torus,
+from ._surfaces import (Cone, Cylinder, Fields, Penetration, Plane, Resultant, RigidFaces, Sector, Sphere, SurfacePairs, Torus,
                         pair_obstacle, pair_surfaces)
 from ._zones import Zone
 
@@ -70,5 +71,5 @@ __all__ = [
     "SurfacePairs", "Torus", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
     "Zone",
     "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",
-    "section_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
+    "section_equations", "sector_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
 ]

@@ -1,10 +1,12 @@
 """Equations between degrees of freedom: for the library, of turned axes and rigid bodies, and from decks."""
 
 import ctypes
+from itertools import product
 
 import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
+from ._mesh import points
 from ._mpc import mpc
 from ._structures import EquationList, sized
 
@@ -67,6 +69,50 @@ def turned_equations(dofs, own, turn):
     if not (off < _ORTHOGONAL).all():
         raise ValueError(f"turn of node {off.argmax()} is no rotation: give orthogonal unit vectors as its columns")
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
+
+
+def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
+    """Equations of the nodes on the second boundary of a Sector, u = turn @ u' of those on the first; and of nodes on its axis.
+
+    coordinates: of all nodes, (n, D).  bodies: a number for each node, (n,), that tells nodes of two bodies apart that
+    stand at one place; None: no two do.  dofs: of each node, (n, D); None: D * node + axis. Leave dofs of the second
+    boundary out of fixed, and put the loads of its nodes where they act.
+    """
+    coordinates = points(coordinates)
+    count, dim = coordinates.shape
+    bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
+    dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else _nodes("dofs", dofs)
+    axis = np.array([0.0, 0.0, 1.0]) if dim == 2 else reals("axis", sector.axis)
+    axis = axis / np.linalg.norm(axis)
+    angle, (x, y, z) = 2 * np.pi / sector.count, axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    turn, arms = turn[:dim, :dim], coordinates - reals("point", sector.point)
+    images, near = arms @ turn.T, 1e-6 * np.ptp(coordinates, axis=0).max()
+    cells = {}
+    for node, cell in enumerate(map(tuple, np.floor(arms / (2 * near)))):
+        cells.setdefault(cell, []).append(node)
+    second, first, found = [], [], []
+    for node, image in enumerate(images):
+        if np.linalg.norm(image - arms[node]) <= near:
+            # A turn leaves the part along the axis.
+            kept = abs(axis).argmax()
+            along = [] if dim == 2 else [int(dofs[node, kept])]
+            found += [(int(dofs[node, c]), along, [axis[c] / axis[kept]] * len(along))
+                      for c in range(dim) if dim == 2 or c != kept]
+            continue
+        around = product(*((cell - 1, cell, cell + 1) for cell in np.floor(image / (2 * near))))
+        same = [other for cell in around for other in cells.get(cell, ())
+                if bodies[other] == bodies[node] and np.linalg.norm(arms[other] - image) <= near]
+        if len(same) > 1:
+            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
+                             "tells them apart")
+        if node not in second:  # of two sectors, each boundary is the image of the other
+            second, first = second + same, first + [node] * len(same)
+    if not second:
+        raise ValueError(f"no node is the image of another, turned by one of {sector.count} sectors about the axis: "
+                         "nodes of the two boundaries must match")
+    return turned_equations(dofs[second], dofs[first], turn) + found
 
 
 def section_equations(dofs, opposite, shortening, axis):

@@ -152,7 +152,8 @@ class SurfaceSettings(ctypes.Structure):
         ("symmetry_axes", address), ("symmetry_at", address), ("normals", i32), ("rims", i32),
         ("axisymmetric", i32), ("fitted", i32), ("time_limit", real), ("progress", Callback),
         ("user", address), ("slave_shape", address), ("master_shape", address),
-        ("close_within", real), ("clearance", real),
+        ("close_within", real), ("clearance", real), ("symmetry_normals", address), ("sectors", i64),
+        ("sector_point", address), ("sector_axis", address),
     ]
 
 

@@ -44,6 +44,14 @@ axis: the direction across the ring.  radius: of the tube.  ring: radius of the 
 tube.  hollow: the body is inside of the tube.
 """
 
+Sector = namedtuple("Sector", "count point axis", defaults=[(0.0, 0.0, 1.0)])
+Sector.__doc__ = """One of count sectors of a body that repeats about an axis.
+
+count: number of sectors of the whole.  point: of the axis, (D,).  axis: its direction, (3,); in 2D not read. The second
+boundary is the first one turned about it, right-handed; its displacements are those of the first, turned, as
+sector_equations gives them.
+"""
+
 RigidFaces = namedtuple("RigidFaces", "coordinates faces")
 RigidFaces.__doc__ = """A rigid mesh with nodes of its own, such as the triangles of a drawing.
 
@@ -78,7 +86,7 @@ master_face: the face that it has passed through; -1: a shape.  sentence: the sa
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
                   axisymmetric=False, slave_shape=None, master_shape=None, fitted=False,
-                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None):
+                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -92,7 +100,9 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
-    it stands along it: [(0, 0.0), (1, 0.0)]. Pairs on one neither move nor carry a force across it.
+    it stands along it: [(0, 0.0), (1, 0.0)], or of a direction (D,) for a skewed one: [((-0.5, 0.87, 0), 0.0)].
+    Pairs on one neither move nor carry a force across it.
+    sector: the Sector that the mesh is of a body that repeats about an axis; pairs are those of the whole.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
     rims: slave nodes with less than half of their area over the master "fold" into the nearest
@@ -111,13 +121,13 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        (slave_shape, master_shape, fitted, close_within, clearance), time_limit, progress)
+                        (slave_shape, master_shape, fitted, close_within, clearance), time_limit, progress, sector)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
                   dofs_per_node=0, symmetry=(), normals="averaged", rims="fold", axisymmetric=False,
                   slave_shape=None, master_shape=None, fitted=False, close_within=0.0, clearance=0.0,
-                  time_limit=0.0, progress=None):
+                  time_limit=0.0, progress=None, sector=None):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder, Cone, Torus or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
@@ -129,7 +139,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
-                        time_limit, progress)
+                        time_limit, progress, sector)
 
 
 class SurfacePairs:
@@ -148,7 +158,7 @@ class SurfacePairs:
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, time_limit, progress):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, time_limit, progress, sector):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         self.slave_faces = self.drawn_faces = slave.lists
@@ -165,11 +175,19 @@ class SurfacePairs:
             shape and ctypes.addressof(shape) for shape in shapes)
         call = Call(self._functions, {"progress": progress})
         settings.progress = call.settings.progress
-        axes, places = _planes(symmetry)
+        across, places = _planes(symmetry, self.dim)
         # Nodes on the axis of bodies of revolution stand as on a plane of symmetry.
-        self.symmetry_axes = axes.tolist() + ([0] if axisymmetric else [])
-        settings.symmetry_planes = len(axes)
-        settings.symmetry_axes, settings.symmetry_at = at(axes), at(places)
+        along = [int(abs(normal).argmax()) for normal in across if np.count_nonzero(normal) == 1]
+        self.symmetry_axes = along + ([0] if axisymmetric else [])
+        settings.symmetry_planes = len(across)
+        settings.symmetry_normals, settings.symmetry_at = at(across), at(places)
+        if sector is not None:
+            sector = Sector(*sector)
+            if not sector.count:
+                raise ValueError("count of a Sector is 0: give the number of sectors of the whole, at least 2")
+            point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
+            axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
+            settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
         # Entries of a displacement vector that has all nodes.
         self._least = (dofs_per_node or self.dim) * (self.node_count - 1) + self.dim
         if dofs is not None:
@@ -217,13 +235,17 @@ class SurfacePairs:
 
     @property
     def rows(self):
-        """For each pair (dofs, weights): rows of Model.sparse, which takes those of several zones in one list."""
+        """For each pair (dofs, weights): rows of Model.sparse, which takes those of several zones in one list.
+
+        Of a sector and on skewed planes weights are vectors, (k, D), and dofs (k,).
+        """
         if not self.pairs:
             return []
         pairs = Pairs.from_address(self.structure)
         ends = copied(pairs.row_start, (self.pairs + 1,), i64)
-        dofs = copied(pairs.row_nodes, (ends[-1], self.dim), i64)
-        weights = copied(pairs.row_weights, (ends[-1],))
+        each, shared = ((), (self.dim,))[:: 1 if pairs.row_vectors else -1]
+        dofs = copied(pairs.row_nodes, (ends[-1], *each), i64)
+        weights = copied(pairs.row_vectors or pairs.row_weights, (ends[-1], *shared))
         return [(dofs[begin:end], weights[begin:end]) for begin, end in zip(ends, ends[1:])]
 
     def with_equations(self, equations):
@@ -390,10 +412,17 @@ def _shape(obstacle, dim):
                     f"obstacle RigidFaces")
 
 
-def _planes(symmetry):
-    """Axes and places of planes of symmetry."""
-    planes = reals("symmetry", symmetry).reshape(-1, 2) if len(symmetry) else np.zeros((0, 2))
-    axes = planes[:, 0].astype(np.int32)
-    if np.any(axes != planes[:, 0]):
-        raise ValueError(f"symmetry names the axes {planes[:, 0]}: give 0, 1 or 2 and where the plane stands")
-    return indices(axes, np.int32), doubles(planes[:, 1])
+def _planes(symmetry, dim):
+    """Directions across planes of symmetry, and their places."""
+    across, places = np.zeros((len(symmetry), dim)), np.zeros(len(symmetry))
+    for k, (direction, place) in enumerate(symmetry):
+        places[k] = place
+        if np.ndim(direction):
+            asked = f"the axis or the direction across it, shape {(dim,)}"
+            across[k] = fit(f"symmetry[{k}]", direction, [(dim,)], asked)
+        elif direction in range(dim):
+            across[k, int(direction)] = 1.0
+        else:
+            raise ValueError(f"symmetry[{k}] names axis {direction}: give {' or '.join(map(str, range(dim)))}, or a "
+                             f"direction, and where the plane stands")
+    return doubles(across), doubles(places)

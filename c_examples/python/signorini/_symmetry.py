@@ -17,6 +17,9 @@ def warn_of_planes(contact, fixed, name=None):
     if not fixed or not contact.pairs:
         return
     for node, (dofs, weights) in zip(contact.nodes, contact.rows):
+        if dofs.ndim == 1:  # by degree of freedom, those of each node in turn
+            dofs = dofs.reshape(-1, contact.dim)
+            weights = weights.reshape(-1, contact.dim, contact.dim).trace(axis1=1, axis2=2)
         both = dofs[[weights.argmax(), weights.argmin()]] if weights.min() < 0 else []
         across = [axis for axis in range(contact.dim) if len(both) and all(pair[axis] in fixed for pair in both)]
         for axis in across if len(across) < contact.dim else []:

@@ -1,0 +1,93 @@
+//! The images of nodes in the neighbours of a sector. An image is a node of the sector, turned: `u = Q u'`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::sector::Sector;
+use crate::linalg::vector3::{Matrix3, Vector3};
+
+/// The images of a host's nodes in the neighbours of a sector. Of `n` nodes, the image of node `i` beyond the second boundary
+/// is counted as `n + i` and that before the first one as `2 n + i`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Images {
+    /// `None`: there are no images.
+    sector: Option<Sector>,
+    /// Number of nodes of the host.
+    nodes: usize,
+    /// Nodes on the second boundary with those on the first whose images they are.
+    second: BTreeMap<usize, usize>,
+}
+
+impl Images {
+    /// Those of a sector, of so many nodes of the host, of which some are on the `second` boundary with those on the first
+    /// whose images they are.
+    pub(super) fn new(sector: Sector, nodes: usize, second: BTreeMap<usize, usize>) -> Images {
+        Images { sector: Some(sector), nodes, second }
+    }
+
+    /// `true` if there is no sector.
+    pub fn are_none(&self) -> bool {
+        self.sector.is_none()
+    }
+
+    /// The host's node that a node is or is an image of, and the turn of its displacement.
+    pub fn of(&self, node: usize) -> (usize, Matrix3) {
+        let (node, by) = self.counted(node);
+        (node, self.turn(by))
+    }
+
+    /// The same for a node on the second boundary too, which is an image of one on the first; and by how many sectors it is
+    /// turned.
+    pub(super) fn home(&self, node: usize) -> (usize, i32) {
+        let (node, by) = self.counted(node);
+        self.second.get(&node).map_or((node, by), |first| (*first, by + 1))
+    }
+
+    fn counted(&self, node: usize) -> (usize, i32) {
+        match node.checked_div(self.nodes) {
+            None | Some(0) => (node, 0),
+            Some(1) => (node - self.nodes, 1),
+            Some(_) => (node - 2 * self.nodes, -1),
+        }
+    }
+
+    /// The turn by some sectors.
+    pub(super) fn turn(&self, by: i32) -> Matrix3 {
+        self.sector.filter(|_| by != 0).map_or_else(Matrix3::identity, |sector| sector.turn(by))
+    }
+
+    /// The place of the image of a point.
+    pub(super) fn image(&self, x: Vector3, by: i32) -> Vector3 {
+        self.sector.filter(|_| by != 0).map_or(x, |sector| sector.image(x, by))
+    }
+
+    /// `true` of a node that the sector has, and not its neighbour on the second boundary.
+    pub(super) fn is_own(&self, node: usize) -> bool {
+        node < self.nodes && !self.second.contains_key(&node)
+    }
+
+    /// The nodes on the first boundary.
+    pub(super) fn on_first(&self) -> BTreeSet<usize> {
+        self.second.values().copied().collect()
+    }
+
+    /// The nodes on the second boundary, each with that on the first whose image it is.
+    pub(super) fn on_second(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.second.iter().map(|(second, first)| (*second, *first))
+    }
+
+    /// Takes in the images of another zone.
+    ///
+    /// # Errors
+    /// They are those of another sector.
+    pub(super) fn join(&mut self, other: &Images) -> Result<(), ()> {
+        if self.are_none() {
+            *self = other.clone();
+        } else if !other.are_none() {
+            if (self.sector, self.nodes) != (other.sector, other.nodes) {
+                return Err(());
+            }
+            self.second.extend(&other.second);
+        }
+        Ok(())
+    }
+}
