@@ -110,6 +110,7 @@ fn search(
     };
     let mut found = found?;
     planes.tell(&mut found.held);
+    found.report.idle_planes = planes.idle;
     if !master.is_rigid() {
         OnPlanes::new(master, settings)?.tell(&mut found.held);
     }

@@ -72,6 +72,8 @@ pub struct SurfaceReport {
     pub not_opposed: usize,
     /// Boxes that the search looked at: its cost.
     pub boxes_searched: usize,
+    /// Planes of symmetry that no slave node stands on.
+    pub idle_planes: Vec<usize>,
     /// Slave faces that look away from an obstacle that is a shape.
     pub looking_away: usize,
     /// Slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that:

@@ -66,6 +66,10 @@ impl SurfacePairs {
         if on_planes > 0 {
             found += &format!("; {on_planes} of the pairs on planes of symmetry");
         }
+        let idle: Vec<String> = report.idle_planes.iter().map(|plane| index(*plane)).collect();
+        if !idle.is_empty() {
+            found += &format!("; no slave node stands on plane of symmetry {}", idle.join(", "));
+        }
         if !self.images.are_none() {
             let first = self.images.on_first();
             let on = self.pairs.iter().filter(|pair| first.contains(&pair.slave)).count();

@@ -25,6 +25,8 @@ use crate::linalg::vector3::{self, Vector3, unit, vector, without};
 pub(super) struct OnPlanes {
     /// Orthonormal directions across the planes that each of them stands on.
     across: BTreeMap<usize, Vec<Vector3>>,
+    /// The planes that no node stands on.
+    pub(super) idle: Vec<usize>,
 }
 
 impl OnPlanes {
@@ -70,16 +72,17 @@ impl OnPlanes {
             ];
             match ends {
                 [Some(below), Some(above)] if side.is_slave() => {
-                    let (at, below, above) = (plane.at, index(*below), index(*above));
+                    let (name, below, above) = (plane.name(), index(*below), index(*above));
                     return refuse(format!(
-                        ", at {at}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave \
+                        ", {name}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave \
                          the plane out"
                     ));
                 }
                 [Some(_), Some(_)] => {}
                 _ => {
                     let on = nodes.iter().filter(|node| height(node).abs() <= near);
-                    on.for_each(|node| found.add(*node, across));
+                    let count = on.map(|node| found.add(*node, across)).count();
+                    found.idle.extend((count == 0).then_some(k));
                 }
             }
         }

@@ -132,6 +132,93 @@ class Rows(unittest.TestCase):
                 rows=[([0, 1], np.zeros((2, 2)))])
 
 
+class Sectors(unittest.TestCase):
+    """A ring of 3 and a hub of 4 faces a sector, shifted, every node on springs that are alike in all directions."""
+
+    def ring(self, sectors, whole, nodes):
+        """Places, faces of ring and hub, and of each node the share of its springs that is here."""
+        places, faces, shares = [], [], []
+        for start, count, turns_back in ((0.0, 3, True), (0.1, 4, False)):
+            steps = (sectors if whole else 1) * count * (nodes - 1)
+            points = steps if whole else steps + 1
+            angles = start + 2 * np.pi / (sectors * count * (nodes - 1)) * np.arange(points)
+            first = sum(map(len, places))
+            ends = [(first + i, first + (i + nodes - 1) % points) for i in range(0, steps, nodes - 1)]
+            mids = [[first + i + 1] for i in range(0, steps, nodes - 1)] if nodes == 3 else [[]] * len(ends)
+            faces.append([[*(end[::-1] if turns_back else end), *mid] for end, mid in zip(ends, mids)])
+            places.append(np.stack([np.cos(angles), np.sin(angles)], 1))
+            share = np.ones(points)
+            if not whole:
+                share[[0, -1]] = 0.5
+            shares.append(share)
+        return np.concatenate(places), faces, np.concatenate(shares), len(places[0])
+
+    def test_a_sector_of_a_ring_is_the_whole(self):
+        for sectors, nodes in ((5, 2), (5, 3), (2, 3), (3, 2)):
+            turn = 2 * np.pi / sectors
+            found = []
+            for whole in (True, False):
+                places, (ring, hub), shares, first = self.ring(sectors, whole, nodes)
+                angles = np.arctan2(places[:, 1], places[:, 0])
+                # Loads that repeat in each sector: the ring is pressed and dragged.
+                along = (1 + 0.8 * np.cos(sectors * angles) + 0.3 * np.sin(sectors * angles))[:, None]
+                load = -along * places + 0.1 * np.stack([-places[:, 1], places[:, 0]], 1)
+                load[first:] = 0
+                load *= shares[:, None]
+                sector = None if whole else signorini.Sector(sectors, (0.0, 0.0))
+                bodies = np.arange(len(places)) >= first
+                equations = None if whole else signorini.sector_equations(places, sector, bodies=1 * bodies)
+                contact = signorini.pair_surfaces(places, ring, hub, sector=sector, search_distance=0.5)
+                size, springs = places.size, 10.0 * np.repeat(shares, 2)
+                K = springs, np.arange(size), np.arange(size + 1)
+                model = signorini.Model.from_surfaces(K, contact, equations=equations)
+                result = model.solve(load.ravel(), mu=0.2, gap=contact.gaps + 0.01)
+                self.assertEqual(result.status, 0)
+                fields = contact.fields(result, gap=contact.gaps + 0.01)
+                u = model.recover(result.d, load.ravel()).reshape(-1, 2)
+                found.append((places, first, u, fields, contact))
+            (places, first, u, fields, contact), (own, end, *of_sector) = found
+            # Nodes of the sector among those of the whole, by body and place.
+            same = [np.abs(places - x).max(1) + 9 * ((np.arange(len(places)) >= first) != (node >= end))
+                    for node, x in enumerate(own)]
+            same = np.argmin(same, axis=1)
+            for ours, theirs in zip((of_sector[0], *of_sector[1][:4]), (u, *fields[:4])):
+                # Rounding of the places and of the solution, relative to the largest.
+                np.testing.assert_allclose(ours, theirs[same], atol=1e-11 * abs(theirs).max())
+            self.assertEqual(contact.pairs, sectors * of_sector[2].pairs)
+            self.assertIn("of the pairs on the boundary of the sector", of_sector[2].summary)
+
+    def test_nodes_on_the_axis_stay_there(self):
+        axis = np.array([1.0, 2, 2]) / 3
+        places = np.array([[0, 0, 0], [3, 0, 0], [-1, 2, 2.0]])
+        sector = signorini.Sector(4, (0, 0, 0), axis)
+        cross = np.cross(axis, places[1])
+        along = axis * (axis @ places[1])
+        places[2] = along + cross  # (3, 0, 0), a quarter turned
+        equations = {dof: (dofs, numbers) for dof, dofs, numbers in signorini.sector_equations(places, sector)}
+        self.assertEqual(set(equations), {0, 2, 6, 7, 8} if abs(axis).argmax() == 1 else {0, 1, 6, 7, 8})
+        u = np.zeros(9)
+        kept = abs(axis).argmax()
+        u[:3][kept], u[3:6] = axis[kept], [0.3, -0.2, 0.5]
+        for dof, (dofs, numbers) in equations.items():
+            u[dof] = np.dot(u[np.asarray(dofs, int)], numbers)
+        np.testing.assert_allclose(u[:3], axis, atol=1e-15)
+        # A quarter turn keeps the part along the axis, and turns the rest.
+        v = u[3:6]
+        np.testing.assert_allclose(u[6:], axis * (axis @ v) + np.cross(axis, v), atol=1e-15)
+
+    def test_boundaries_that_do_not_match(self):
+        places, (ring, hub), _, first = self.ring(5, False, 2)
+        bodies = 1 * (np.arange(len(places)) >= first)
+        with self.assertRaisesRegex(ValueError, "no node is the image of another, turned by one of 7 sectors"):
+            signorini.sector_equations(places, signorini.Sector(7, (0.0, 0.0)), bodies=bodies)
+        twice = np.concatenate([places, places])
+        with self.assertRaisesRegex(ValueError, r"the image of node 0 is at the place of nodes 3 and \d+: give bodies"):
+            signorini.sector_equations(twice, signorini.Sector(5, (0.0, 0.0)))
+        with self.assertRaisesRegex(signorini.SignoriniError, "give the axis of the sector, and the number of sectors"):
+            signorini.pair_surfaces(places, ring, hub, sector=(9, (0.0, 0.0)))
+
+
 class Decks(unittest.TestCase):
     def read(self, deck, **more):
         with tempfile.TemporaryDirectory() as folder:
