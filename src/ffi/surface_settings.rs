@@ -201,28 +201,34 @@ impl SignoriniSurfaceSettings {
     /// The planes of symmetry.
     fn symmetry(&self, at: At<'_>, dim: usize) -> Outcome<Vec<SymmetryPlane>> {
         let count = at.field("symmetry_planes").size(self.symmetry_planes)?;
-        let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
         let entries = count.saturating_mul(dim);
         let normals = at.field("symmetry_normals").optional(self.symmetry_normals, entries)?;
-        if let Some(normals) = normals {
-            let plane = |(normal, &at): (&[f64], &f64)| SymmetryPlane { normal: three(normal), at };
-            return Ok(normals.chunks_exact(dim).zip(places).map(plane).collect());
-        }
-        let at_axes = at.field("symmetry_axes");
-        let axes = at_axes.required(self.symmetry_axes, count)?;
-        let plane = |(k, (&given, &at)): (usize, (&i32, &f64))| {
-            let base = i64::from(self.index_base);
-            match usize::try_from(i64::from(given) - base) {
-                Ok(axis) if axis < dim => Ok(SymmetryPlane::across(axis, at)),
-                Ok(_) => at_axes.refuse(format!(
-                    "plane of symmetry {}: there is no axis {given}, the last one is {}",
-                    k as i64 + base,
-                    dim as i64 - 1 + base
-                )),
-                Err(_) => at_axes.refuse(format!("has {given}, there is no such axis")),
-            }
+        let axes = match normals {
+            Some(_) => &[],
+            None => at.field("symmetry_axes").required(self.symmetry_axes, count)?,
         };
-        axes.iter().zip(places).enumerate().map(plane).collect()
+        let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
+        let across: Vec<[f64; 3]> = match normals {
+            Some(normals) => normals.chunks_exact(dim).map(three).collect(),
+            None => self.across(at.field("symmetry_axes"), axes, dim)?,
+        };
+        let plane = |(normal, &at)| SymmetryPlane { normal, at };
+        Ok(across.into_iter().zip(places).map(plane).collect())
+    }
+
+    /// Directions along axes.
+    fn across(&self, at: At<'_>, axes: &[i32], dim: usize) -> Outcome<Vec<[f64; 3]>> {
+        let base = i64::from(self.index_base);
+        let across = |(k, &given): (usize, &i32)| match usize::try_from(i64::from(given) - base) {
+            Ok(axis) if axis < dim => Ok(SymmetryPlane::across(axis, 0.0).normal),
+            Ok(_) => at.refuse_part(format!(
+                "plane of symmetry {}: there is no axis {given}, the last one is {}",
+                k as i64 + base,
+                dim as i64 - 1 + base
+            )),
+            Err(_) => at.refuse(format!("has {given}, there is no such axis")),
+        };
+        axes.iter().enumerate().map(across).collect()
     }
 
     /// The sector.

@@ -9,6 +9,7 @@
 #include "../../c_examples/3d/brick_mesh.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- Patch test ---------------------------------------------------------------------------- */
 
@@ -583,6 +584,21 @@ static void refusals(void)
     refused(plane_nodes, &slave, &master, &settings, 6, "plane of symmetry 1: there is no axis 2");
     settings.index_base = 1;
     refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_axes has 0, there is no such axis");
+    const double across[] = {1, 0, 0, 0};
+    settings = defaults();
+    settings.symmetry_planes = 2;
+    settings.symmetry_normals = across;
+    refused(plane_nodes, &slave, &master, &settings, 6, "symmetry_at is NULL");
+    settings.symmetry_at = places;
+    refused(plane_nodes, &slave, &master, &settings, 6, "plane of symmetry 1: its normal 0, 0, 0 is no direction");
+    settings = defaults();
+    settings.sectors = -1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "sectors is -1");
+    settings.sectors = 4;
+    refused(plane_nodes, &slave, &master, &settings, 6, "sector_point is NULL");
+    settings.sector_point = places;
+    settings.axisymmetric = 1;
+    refused(plane_nodes, &slave, &master, &settings, 6, "axisymmetric: a body of revolution has no sector");
     CHECK_STATUS(signorini_surface_pair(4, 5, plane_nodes, &slave, &master, NULL, &contact), -1);
     CHECK_STATUS(signorini_surface_pair(2, -5, plane_nodes, &slave, &master, NULL, &contact),
                  -2);
@@ -592,6 +608,57 @@ static void refusals(void)
     CHECK_TEXT(signorini_last_error(), "contact is NULL");
     CHECK(data.pairs == 0 && data.rows == NULL);
     signorini_surface_free(NULL);
+}
+
+/*
+ * A plane of symmetry by its direction is that by its axis. A sector whose neighbours are far away has the rows of the part
+ * itself, by degree of freedom.
+ */
+static void planes_by_directions(void)
+{
+    const signorini_faces slave = lines(1, line), master = lines(2, below);
+    const int32_t axes[] = {0};
+    const double places[] = {0}, across[] = {2, 0}, point[] = {0, -50};
+    signorini_surface_settings settings = defaults();
+    signorini_surface_data by_axis = {.struct_size = sizeof by_axis}, other = by_axis;
+    signorini_surface_pairs *contact, *same;
+
+    settings.symmetry_planes = 1;
+    settings.symmetry_axes = axes;
+    settings.symmetry_at = places;
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &contact), 0);
+    CHECK_STATUS(signorini_surface_view(contact, &by_axis), 0);
+    settings.symmetry_axes = NULL;
+    settings.symmetry_normals = across;
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &same), 0);
+    CHECK_STATUS(signorini_surface_view(same, &other), 0);
+    const int64_t entries = by_axis.rows->row_start[by_axis.pairs];
+    CHECK(other.pairs == 2 && by_axis.pairs == 2 && other.on_symmetry == 1 && by_axis.on_symmetry == 1);
+    CHECK(memcmp(other.rows->row_nodes, by_axis.rows->row_nodes, 2 * (size_t)entries * sizeof(int64_t)) == 0);
+    CHECK(memcmp(other.rows->row_weights, by_axis.rows->row_weights, (size_t)entries * sizeof(double)) == 0);
+    signorini_surface_free(same);
+
+    /* A sector whose neighbours are far away: the rows of before, with the weight of a node in the place of each axis. */
+    settings = defaults();
+    settings.sectors = 4;
+    settings.sector_point = point;
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, NULL, &same), 0);
+    CHECK_STATUS(signorini_surface_view(same, &by_axis), 0);
+    signorini_surface_free(contact);
+    CHECK_STATUS(signorini_surface_pair(2, 5, plane_nodes, &slave, &master, &settings, &contact), 0);
+    CHECK_STATUS(signorini_surface_view(contact, &other), 0);
+    CHECK(other.rows->row_weights == NULL && other.pairs == by_axis.pairs);
+    /* Means over three sectors, to rounding. */
+    CHECK(fabs(other.slave_area - by_axis.slave_area) < 1e-15 && fabs(other.covered_area - by_axis.covered_area) < 1e-15);
+    for (int64_t k = 0; k < by_axis.rows->row_start[by_axis.pairs]; k++) {
+        for (int axis = 0; axis < 2; axis++) {
+            const double *vector = other.rows->row_vectors + 4 * k + 2 * axis;
+            CHECK(other.rows->row_nodes[2 * k + axis] == by_axis.rows->row_nodes[2 * k + axis]);
+            CHECK(vector[axis] == by_axis.rows->row_weights[k] && vector[1 - axis] == 0);
+        }
+    }
+    signorini_surface_free(contact);
+    signorini_surface_free(same);
 }
 
 /* Faults of the calls after the solution. */
@@ -681,6 +748,7 @@ int main(void)
     never_meet();
     penetration();
     refusals();
+    planes_by_directions();
     refused_results();
     return check_summary("surfaces");
 }
