@@ -57,7 +57,7 @@ impl Images {
 
     /// The place of the image of a point.
     pub(super) fn image(&self, x: Vector3, by: i32) -> Vector3 {
-        self.sector.filter(|_| by != 0).map_or(x, |sector| sector.image(x, by))
+        self.sector.filter(|_| by != 0).map_or(x, |sector| sector.image(by)(x))
     }
 
     /// `true` of a node that the sector has, and not its neighbour on the second boundary.

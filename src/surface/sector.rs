@@ -57,10 +57,10 @@ impl Sector {
         turn_about(self.axis(), angle)
     }
 
-    /// The place of the image of a point.
-    pub(super) fn image(&self, x: Vector3, by: i32) -> Vector3 {
-        let point = Vector3::from(self.point);
-        point + self.turn(by) * (x - point)
+    /// The places of images of points, some sectors on.
+    pub(super) fn image(&self, by: i32) -> impl Fn(Vector3) -> Vector3 {
+        let (point, turn) = (Vector3::from(self.point), self.turn(by));
+        move |x| point + turn * (x - point)
     }
 
     /// How far the neighbours are away, in sectors. One of two sectors has one neighbour.

@@ -39,8 +39,12 @@ impl WithImages {
             nodes: nodes.to_vec(),
         };
         for (k, &by) in sector.neighbours().iter().enumerate() {
-            let images = side.coordinates.chunks_exact(dim).map(|x| sector.image(vector(x), by));
-            images.for_each(|x| all.coordinates.extend(&x.as_slice()[..dim]));
+            let (image, end) = (sector.image(by), all.coordinates.len());
+            all.coordinates.resize(end + side.coordinates.len(), 0.0);
+            for node in side.all_nodes() {
+                let x = image(vector(&side.coordinates[dim * node..][..dim]));
+                all.coordinates[end + dim * node..][..dim].copy_from_slice(&x.as_slice()[..dim]);
+            }
             // Beyond the second boundary the images of nodes on the first are those on the second.
             let ahead = |node: &usize| first.get(node).filter(|_| by > 0);
             let behind = |node: &usize| second.get(node).filter(|_| by < 0 || sector.count == 2);
@@ -120,10 +124,10 @@ fn second_boundary(
     }
     let step = |k: i32| [k % 3, k / 3 % 3, k / 9].map(|step| f64::from(step - 1));
     let around = || (0..27).map(|k| Vector3::from(step(k)));
-    let mut second = BTreeMap::new();
+    let (mut second, next) = (BTreeMap::new(), sector.image(1));
     for node in nodes {
         watch.goes_on()?;
-        let image = sector.image(place(node), 1);
+        let image = next(place(node));
         let cells = around().filter_map(|step| cells.get(&key(cell(image) + step)));
         let at_image = |other: &&usize| (place(**other) - image).norm() <= near;
         let same: Vec<usize> = cells.flatten().filter(at_image).copied().collect();
@@ -160,7 +164,7 @@ fn check_boundaries(
         for &by in sector.neighbours() {
             watch.goes_on()?;
             let x = slave.position(node);
-            let image = slave.scale * sector.image(x / slave.scale, by);
+            let image = slave.scale * sector.image(by)(x / slave.scale);
             if (image - x).norm() <= near {
                 continue;
             }
