@@ -319,6 +319,11 @@ impl Terms {
         };
         Terms { each, inherent, rest, base }
     }
+
+    /// The terms of a part of displacements, `each` being those of all.
+    pub(super) fn among(self, each: Vec<f64>) -> Self {
+        Terms { base: norm(&each), each, ..self }
+    }
 }
 
 /// `part / whole`, and infinite where a number on the way overflowed: nothing is certified then.

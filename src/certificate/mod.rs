@@ -13,7 +13,8 @@
 //! beyond `g(0)` is longer than `e_t`, it stands for `e_t`. So `|e|` is not below what the forces that are returned
 //! lack to equilibrium.
 //!
-//! It is zero at solutions only and has no unit. On a relation in which `d` does not determine `F`, the
+//! It is zero at solutions only and has no unit. In full space the rounding of the sums of all loads is the least size of
+//! forces (`problem/stiffness_operator.rs`). On a relation in which `d` does not determine `F`, the
 //! candidate is the pair `(d, F)` and the residual of the relation counts in `|e|` too; `|F|` is the size of
 //! the part of `F` that moves anything.
 //!

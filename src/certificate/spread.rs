@@ -11,6 +11,10 @@ use crate::problem::{MatrixFree, StiffnessOperator};
 
 /// Measures the displacements `x` of all unknowns of `bodies`, whose residual `A x - b` is given. What the
 /// inner unknowns lack to equilibrium counts in `eta` as a force.
+///
+/// A motion that nothing holds moves the pairs: with all of them held the bodies are definite. So it is no part of the
+/// displacements `x0` where those of the pairs are zero, however large the loads are that they come from, and rounding
+/// that may hide it is that of the terms `|A| |x - x0|`.
 pub(crate) fn measure_spread(
     contact: &Contact<'_, MatrixFree<'_>>,
     bodies: &dyn StiffnessOperator,
@@ -19,7 +23,10 @@ pub(crate) fn measure_spread(
 ) -> Certificate {
     let d = &x[bodies.inner()..];
     let (inner, raw) = residual.split_at(bodies.inner());
-    let terms = Terms::of_all(contact, d, (x, None), &|size| bodies.magnitude(size));
+    let at_zero = contact.problem().relation().at_zero();
+    let moved: Vec<f64> = x.iter().zip(at_zero).map(|(x, at_zero)| x - at_zero).collect();
+    let terms = Terms::of_all(contact, d, (&moved, None), &|size| bodies.magnitude(size));
+    let terms = terms.among(bodies.magnitude(&sizes(x)));
     measure_pair(contact, (d, &[]), &terms, raw.to_vec(), (&[], inner))
 }
 
@@ -108,7 +115,7 @@ mod tests {
         let load = [0.0, 1.0, 0.0];
         for off in [-30, -12, -2].map(|exponent| 2_f64.powi(exponent)) {
             let springs = Springs::on(1.0);
-            let relation = MatrixFree::new(&springs, 2, &load[1..]);
+            let relation = MatrixFree::new(&springs, 2, &load[1..], &[0.0; 3]);
             let law = FrictionLaw::Coulomb(&[0.5]);
             let problem = ContactProblem::with_relation(relation, 2, &[0.0], law, None).unwrap();
             let contact = Contact::new(&problem);
@@ -124,7 +131,7 @@ mod tests {
     /// True if a motion proves that two parts, with springs of these stiffnesses, have no equilibrium under a load on the pair.
     fn escapes(support: f64, (load, gap): (f64, f64), motion: [f64; 3]) -> bool {
         let (springs, load, gap) = (Springs::on(support), [load, 0.0], [gap]);
-        let relation = MatrixFree::new(&springs, 2, &load);
+        let relation = MatrixFree::new(&springs, 2, &load, &[0.0; 3]);
         let law = FrictionLaw::Coulomb(&[0.5]);
         let problem = ContactProblem::with_relation(relation, 2, &gap, law, None).unwrap();
         is_spread_escape(&Contact::new(&problem), &springs, &motion).unwrap()

@@ -12,6 +12,8 @@
 
 use super::Relation;
 use crate::error::Error;
+use crate::linalg::ball::UNIT;
+use crate::linalg::vector::{norm, sizes};
 pub use crate::linalg::watched::GoesOn;
 
 /// A symmetric matrix along the two tangents of a pair; in the plane its first entry alone counts.
@@ -119,6 +121,12 @@ pub trait StiffnessOperator {
 
 /// The relation of such bodies, as far as it is known without their inner unknowns: the size of forces. What
 /// needs more than that finds nothing certified by it.
+///
+/// With `x0` the displacements under all loads where those of the pairs are zero, `b = A x0 + (0, f)`. So the relative
+/// loads `f` are what sums with the terms `|A| |x0|` leave, and doubles know them to `u |A| |x0|` alone, `u` the unit of
+/// rounding: where loads act far from the contact, or cancel there, `f` may be zero, or rounding, of which a condensation would
+/// make loads as large. This is the least size of forces, of which `eta` is a part: with a tolerance of 1e-10 an imbalance of
+/// 1e-26 of all loads is seen.
 #[derive(Clone, Debug)]
 pub struct MatrixFree<'a> {
     units: Vec<f64>,
@@ -126,17 +134,32 @@ pub struct MatrixFree<'a> {
     couplings: Vec<f64>,
     dim: usize,
     load: &'a [f64],
+    at_zero: &'a [f64],
+    /// The rounding of the sums that give the loads.
+    rounding: f64,
 }
 
 impl<'a> MatrixFree<'a> {
-    /// Takes bodies with pairs of `dim` components and the relative load `load`.
-    pub fn new(bodies: &dyn StiffnessOperator, dim: usize, load: &'a [f64]) -> Self {
+    /// Takes bodies with pairs of `dim` components, the relative load, and the displacements of all unknowns where those of the
+    /// pairs are zero.
+    pub fn new(
+        bodies: &dyn StiffnessOperator,
+        dim: usize,
+        load: &'a [f64],
+        at_zero: &'a [f64],
+    ) -> Self {
         let units = bodies.units()[bodies.inner()..].to_vec();
         let couplings = match dim {
             2 => Vec::new(),
             _ => (0..load.len()).step_by(dim).map(|n| bodies.coupling(n + 1, n + 2)).collect(),
         };
-        MatrixFree { units, couplings, dim, load }
+        let rounding = UNIT * norm(&bodies.magnitude(&sizes(at_zero)));
+        MatrixFree { units, couplings, dim, load, at_zero, rounding }
+    }
+
+    /// The displacements of all unknowns where those of the pairs are zero.
+    pub fn at_zero(&self) -> &[f64] {
+        self.at_zero
     }
 }
 
@@ -165,6 +188,10 @@ impl Relation for MatrixFree<'_> {
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
         vec![f64::INFINITY; size.len()]
     }
+
+    fn size_of_force(&self, force: &[f64]) -> f64 {
+        norm(force).max(self.rounding)
+    }
 }
 
 #[cfg(test)]
@@ -176,7 +203,8 @@ mod tests {
     #[test]
     fn a_relation_that_is_not_formed_certifies_nothing() {
         let (units, couplings) = (vec![2.0, 3.0, 3.0], vec![0.5]);
-        let matrix_free = MatrixFree { units, couplings, dim: 3, load: &[1.0, 0.0, 0.0] };
+        let (load, at_zero) = (&[1.0, 0.0, 0.0], &[0.0; 3]);
+        let matrix_free = MatrixFree { units, couplings, dim: 3, load, at_zero, rounding: 0.0 };
         let d = [0.1, 0.2, 0.3];
         assert!(matrix_free.force(&d, &[]).is_none());
         assert_eq!(matrix_free.residual(&d, &d), [f64::INFINITY; 3]);

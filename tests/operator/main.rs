@@ -6,6 +6,7 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod surfaces;
 
+mod far_loads;
 mod full_space;
 mod full_space_bodies;
 mod full_space_escape;

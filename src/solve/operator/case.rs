@@ -11,7 +11,7 @@ use crate::error::{Argument, Error};
 use crate::law::{Contact, gaps_within_reach, references};
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, SOLUTIONS, StiffnessOperator};
+use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
 use crate::solve::plan::{self, FAR, remark_on_data};
 use crate::solve::result::{Ending, Solution, Solve, Status};
@@ -20,9 +20,6 @@ use crate::solve::rigid;
 /// Part of the forces inside that is left at the start where there is a preconditioner alone: the relative loads are the
 /// unit of `eta`, and the first system takes it away.
 const LEFT_AT_START: f64 = 1e-3;
-
-/// As [`LEFT_AT_START`], in each of [`SOLUTIONS`] solutions for a measure: below the rounding of doubles in the end.
-const LEFT_BY_MEASURE: f64 = 1e-8;
 
 /// A load case on such bodies.
 pub struct Case<'a> {
@@ -104,23 +101,9 @@ pub fn certify(
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
-    at = ended(settled(at.clone(), (&mut bodies, case.dim), case.load, endless))?.unwrap_or(at);
+    at = ended(at.clone().settled((&mut bodies, case.dim), case.load, endless))?.unwrap_or(at);
     let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
-}
-
-/// The displacements with inner ones in equilibrium to the rounding of doubles, the pairs held.
-fn settled(
-    mut at: Displacements,
-    (bodies, dim): (&mut Session<'_>, usize),
-    load: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Result<Displacements, Ending> {
-    bodies.hold_all(dim, monitor)?;
-    for _ in 0..SOLUTIONS {
-        at = at.in_equilibrium(bodies, (load, LEFT_BY_MEASURE), monitor)?;
-    }
-    Ok(at)
 }
 
 /// A load case with what the bodies say of it where all pairs are held.
@@ -165,7 +148,7 @@ impl<'a> Loaded<'a> {
         gap: &'p [f64],
     ) -> Result<ContactProblem<'p, MatrixFree<'p>>, Error> {
         let Case { dim, law, reference_slip, .. } = *self.case;
-        let relation = MatrixFree::new(bodies.operator, dim, &self.relative);
+        let relation = MatrixFree::new(bodies.operator, dim, &self.relative, &self.at_zero.x);
         ContactProblem::with_relation(relation, dim, gap, law, reference_slip)
     }
 
@@ -194,6 +177,31 @@ impl<'a> Loaded<'a> {
         at.in_equilibrium(bodies, (self.case.load, LEFT_AT_START), monitor)
     }
 
+    /// The pairs at zero without a relative load, if that is a solution: as it was found, or, where loads act far from the
+    /// contact, without the rounding that they have left inside.
+    fn rest(
+        &self,
+        contact: &Contact<'_, MatrixFree<'_>>,
+        bodies: &mut Session<'_>,
+        with: (&Settings, &Case<'_>),
+        past: &mut CasePast,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Solution>, Error> {
+        let is_solved = |rest: &Solution| rest.status == Status::Solved;
+        let at_zero = ((&self.at_zero, &self.residual[..]), &Ending::Done);
+        let rest = Some(result(contact, bodies, with, at_zero, past)).filter(is_solved);
+        if rest.is_some() {
+            return Ok(rest);
+        }
+        let (at_zero, load) = (self.at_zero.clone(), self.case.load);
+        let Ok(at) = ended(at_zero.settled((bodies, self.case.dim), load, monitor))? else {
+            return Ok(None);
+        };
+        let residual = bodies.operator.residual(&at.x, &at.low, load)?;
+        let settled = ((&at, &residual[..]), &Ending::Done);
+        Ok(Some(result(contact, bodies, with, settled, past)).filter(is_solved))
+    }
+
     /// Solves the contact `near`, and measures the result on `contact`, which has further obstacles.
     fn solve(
         &self,
@@ -205,11 +213,10 @@ impl<'a> Loaded<'a> {
     ) -> Result<Solution, Error> {
         let (inner, with) = (bodies.operator.inner(), (settings, self.case));
         let at_zero = (&self.at_zero, &self.residual[..]);
-        if contact.is_unloaded() {
-            let rest = result(contact, bodies, with, (at_zero, &Ending::Done), past);
-            if rest.status == Status::Solved {
-                return Ok(rest);
-            }
+        if contact.is_unloaded()
+            && let Some(rest) = self.rest(contact, bodies, with, past, monitor)?
+        {
+            return Ok(rest);
         }
         let at = match ended(self.start(near, bodies, (start, past), monitor))? {
             Ok(at) => at,
@@ -288,7 +295,7 @@ fn refine(
     monitor: &mut Monitor<'_>,
 ) -> Result<(), Ending> {
     let (at, dim) = (best.point.at.clone(), equations.contact.dim());
-    let point = equations.held_at(settled(at, (bodies, dim), equations.load, monitor)?, bodies)?;
+    let point = equations.held_at(at.settled((bodies, dim), equations.load, monitor)?, bodies)?;
     if point.eta < best.point.eta {
         best.point = point;
     }

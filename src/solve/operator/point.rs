@@ -6,8 +6,12 @@ use crate::law::{Contact, Piece, Vector, natural_sum, scale_roots};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
-use crate::problem::{MatrixFree, Relation, StiffnessOperator};
+use crate::problem::{MatrixFree, Relation, SOLUTIONS, StiffnessOperator};
 use crate::solve::result::Ending;
+
+/// Part of the forces inside that each of [`SOLUTIONS`] solutions for a measure leaves where there is a preconditioner alone:
+/// below the rounding of doubles in the end.
+const LEFT_BY_MEASURE: f64 = 1e-8;
 
 /// The equations `A x - b + (0, P) = 0` with `(d, P)` on the law of each pair.
 pub struct Equations<'a> {
@@ -18,7 +22,7 @@ pub struct Equations<'a> {
     pub inner: usize,
     /// Roots of the units of all unknowns.
     pub root: Vec<f64>,
-    /// Size of the relative loads, a force.
+    /// Size of the relative loads, or of the rounding of all loads if that is more, a force.
     pub unit: f64,
     /// Tolerance of their solution.
     pub tolerance: f64,
@@ -31,7 +35,8 @@ impl<'a> Equations<'a> {
         load: &'a [f64],
         tolerance: f64,
     ) -> Self {
-        let unit = norm(contact.problem().relation().load());
+        let relation = contact.problem().relation();
+        let unit = relation.size_of_force(relation.load());
         let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
         root.truncate(bodies.inner());
         root.extend(scale_roots(contact.pairs(), contact.dim()));
@@ -127,6 +132,20 @@ impl Displacements {
         let lack = bodies.operator.residual(&self.x, &self.low, load)?;
         let step = bodies.solve_to((&lack, left), monitor)?;
         Ok(self.moved(-1.0, &step))
+    }
+
+    /// With inner ones in equilibrium to the rounding of doubles, pairs of `dim` components held.
+    pub fn settled(
+        mut self,
+        (bodies, dim): (&mut Session<'_>, usize),
+        load: &[f64],
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Self, Ending> {
+        bodies.hold_all(dim, monitor)?;
+        for _ in 0..SOLUTIONS {
+            self = self.in_equilibrium(bodies, (load, LEFT_BY_MEASURE), monitor)?;
+        }
+        Ok(self)
     }
 
     /// With a share of other displacements.
