@@ -28,7 +28,8 @@ pub fn gmres<E>(
     let mut rotated = vec![size];
     let mut basis = vec![scaled(right, 1.0 / size)];
     let mut residual = size;
-    while size > 0.0 && residual > least && triangle.len() < most {
+    // Below the normal numbers a length has no reciprocal, and no direction.
+    while size.is_normal() && residual > least && triangle.len() < most {
         let k = triangle.len();
         let mut image = multiply(&basis[k])?;
         let (mut column, left, was) = orthogonalised(&mut image, &basis);
@@ -50,7 +51,7 @@ pub fn gmres<E>(
         rotated[k] = c * last;
         rotated.push(-s * last);
         residual = (s * last).abs();
-        if left <= ROUNDING * was {
+        if left <= ROUNDING * was || !left.is_normal() {
             break;
         }
         basis.push(scaled(&image, 1.0 / left));

@@ -1,6 +1,7 @@
 //! Small least-squares problems: a few columns, of which some may depend on others.
 
 use super::gmres::{orthogonalised, solve_triangle};
+use super::tolerances::ROUNDING;
 
 /// A column of which this part is left beside those before it depends on them.
 const DEPENDENT: f64 = 1e-6;
@@ -45,9 +46,13 @@ impl Columns {
         self.which.len() == self.count
     }
 
-    /// Takes the columns out of a vector, and returns its shares in `C`.
+    /// Takes the columns out of a vector, and returns its shares in `C`. Of a vector in their span nothing is left: its rounding,
+    /// taken for a vector, would have digits of chance alone.
     pub fn take_out(&self, vector: &mut [f64]) -> Vec<f64> {
-        let (mut shares, _, _) = orthogonalised(vector, &self.basis);
+        let (mut shares, left, was) = orthogonalised(vector, &self.basis);
+        if left <= ROUNDING * was {
+            vector.fill(0.0);
+        }
         shares.pop();
         shares
     }

@@ -102,7 +102,7 @@ pub trait StiffnessOperator {
     }
 
     /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
-    /// lasts; `false`: it has ended it, and nothing can be solved before another call.
+    /// lasts; `false`: it has ended it, or rounding leaves no factor, and nothing can be solved before another call.
     ///
     /// # Errors
     /// No memory, or what has failed in the host.

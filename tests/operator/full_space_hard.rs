@@ -4,7 +4,7 @@
 //! Theory: with a definite stiffness there is a solution for all coefficients, loads, gaps and previous slips, so that
 //! there is no share of failures that would be right; what is counted as solved is certified.
 
-use crate::common::dense::{difference, largest};
+use crate::common::dense::{difference, largest, product};
 use crate::common::measures::{eta, rounding};
 use crate::common::mesh::Stiffness;
 use crate::common::plane_families::{SUPPORTS, Structure};
@@ -274,5 +274,40 @@ fn problems_too_large_to_condense_are_solved_by_given_thresholds() {
             let allowed = 1e-10 * (copies as f64).sqrt() + rounding(&problem, d);
             assert!(eta(&problem, d) <= allowed, "{:e}", eta(&problem, d));
         }
+    }
+}
+
+/// Each case starts where a pair carries its threshold but for some roundings, with loads on others that are new: its slip has
+/// no more than begun, so that it turns against a spring 1e15 times stiffer than the bodies. A definite stiffness with given
+/// thresholds has one solution.
+#[test]
+fn slips_that_have_hardly_begun_are_solved() {
+    let (dim, pairs) = (3, 3);
+    for seed in 0..200 {
+        let mut rng = Rng::with_seed(seed);
+        let k = definite(&mut rng, dim * pairs, 1e3);
+        let mut vector =
+            || -> Vec<f64> { (0..dim * pairs).map(|_| 2.0 * rng.f64() - 1.0).collect() };
+        let (d, mut force, change) = (vector(), vector(), vector());
+        force.iter_mut().step_by(dim).for_each(|f| *f = -f.abs());
+        let mut load: Vec<f64> = product(&k, &d).iter().zip(&force).map(|(k, f)| k - f).collect();
+        let begun = f64::from(rng.i32(1..8)) * f64::EPSILON;
+        let bounds: Vec<f64> =
+            force.chunks_exact(dim).map(|f| f[1].hypot(f[2]) * (1.0 - begun)).collect();
+        load[dim..].iter_mut().zip(&change).for_each(|(f, change)| *f += 0.3 * change);
+        let slip: Vec<f64> = d.chunks_exact(dim).flat_map(|d| [d[1], d[2]]).collect();
+        let gap: Vec<f64> = d.iter().step_by(dim).copied().collect();
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap: &gap,
+            law: FrictionLaw::Tresca(&bounds),
+            reference_slip: Some(&slip),
+        };
+        let settings = Settings { full_space: true, ..Settings::default() };
+        let model = model(dim, (pairs, 1), &k, &settings);
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, Some(&d), monitor).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{seed}: {}", solution.message);
     }
 }

@@ -17,3 +17,4 @@ mod parts;
 mod preconditioned;
 mod probes;
 mod products;
+mod singular_hosts;

@@ -134,7 +134,11 @@ impl FullSpace {
             return Ok(x);
         }
         let mut user = self.in_use();
-        user.hold_all(&mut || true)?;
+        if !user.hold_all(&mut || true)? {
+            let message =
+                "the bodies cannot be told from bodies that fall apart where the pairs are held";
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
         let held = d.chunks_exact((self.matrix.ncols() - self.inner).max(1));
@@ -251,10 +255,7 @@ impl StiffnessOperator for InUse<'_> {
                 Err(_) => return Err(Error::OutOfMemory("the factor of the stiffness matrix")),
             }
         }
-        Err(Error::invalid(
-            Argument::Matrix,
-            "the bodies cannot be told from bodies that fall apart: no factor exists with springs on the pairs",
-        ))
+        Ok(false)
     }
 
     fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {

@@ -102,7 +102,7 @@ pub fn certify(
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
     at = ended(at.clone().settled((&mut bodies, case.dim), case.load, endless))?.unwrap_or(at);
-    let residual = bodies.operator.residual(&at.x, &at.low, case.load)?;
+    let residual = bodies.residual(&at.x, &at.low, case.load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
 }
 
@@ -136,7 +136,7 @@ impl<'a> Loaded<'a> {
             Ok(at_zero) => (at_zero, None),
             Err(stopped) => (nothing, Some(stopped)),
         };
-        let residual = bodies.operator.residual(&at_zero.x, &at_zero.low, case.load)?;
+        let residual = bodies.residual(&at_zero.x, &at_zero.low, case.load)?;
         let relative = residual[inner..].iter().map(|f| -f).collect();
         Ok(Loaded { case, at_zero, residual, relative, stopped })
     }
@@ -197,7 +197,7 @@ impl<'a> Loaded<'a> {
         let Ok(at) = ended(at_zero.settled((bodies, self.case.dim), load, monitor))? else {
             return Ok(None);
         };
-        let residual = bodies.operator.residual(&at.x, &at.low, load)?;
+        let residual = bodies.residual(&at.x, &at.low, load)?;
         let settled = ((&at, &residual[..]), &Ending::Done);
         Ok(Some(result(contact, bodies, with, settled, past)).filter(is_solved))
     }

@@ -111,7 +111,7 @@ impl Condensed {
         let mut condensed = Condensed { places, matrix: vec![0.0; size * size], load: Vec::new() };
         let (near, nothing) = (near.clone(), vec![0.0; size]);
         let at = condensed.with(bodies, near, (&nothing, equations.load), monitor)?;
-        let forces = bodies.operator.residual(&at.x, &at.low, equations.load)?;
+        let forces = bodies.residual(&at.x, &at.low, equations.load)?;
         condensed.load = condensed.places.iter().map(|&i| -forces[i]).collect();
         for j in 0..size {
             let column = condensed.column(bodies, j, monitor)?;
@@ -131,10 +131,10 @@ impl Condensed {
         monitor.goes_on()?;
         let mut x = vec![0.0; bodies.operator.units().len()];
         x[self.places[j]] = 1.0;
-        let mut forces = bodies.operator.product(&x)?;
+        let mut forces = bodies.product(&x)?;
         if bodies.has_free_unknowns() {
             let others = bodies.solve(&forces, monitor)?;
-            let taken = bodies.operator.product(&others)?;
+            let taken = bodies.product(&others)?;
             forces.iter_mut().zip(taken).for_each(|(force, taken)| *force -= taken);
         }
         Ok(self.places.iter().map(|&i| forces[i]).collect())

@@ -86,7 +86,7 @@ impl FreeMotions {
         let mut products = Vec::new();
         for motion in &whole {
             monitor.goes_on()?;
-            products.push(bodies.operator.product(motion)?);
+            products.push(bodies.product(motion)?);
         }
         let energy =
             |i: usize, j: usize| dot(&whole[i], &products[j]) + dot(&whole[j], &products[i]);

@@ -59,7 +59,7 @@ impl<'a> Equations<'a> {
     /// The point whose contact forces are those that hold the pairs at displacements of which the inner ones are in
     /// equilibrium.
     pub fn held_at(&self, at: Displacements, bodies: &mut Session<'_>) -> Result<Point, Error> {
-        let residual = bodies.operator.residual(&at.x, &at.low, self.load)?;
+        let residual = bodies.residual(&at.x, &at.low, self.load)?;
         let forces = &residual[self.inner..];
         let y = self.contact.each(&at.x[self.inner..], forces).map(|(law, d, f)| law.chart(d, f));
         let y = y.collect();
@@ -90,12 +90,12 @@ impl<'a> Equations<'a> {
         }
         let residual = match known {
             Some(mut residual) if apart.iter().any(|apart| *apart != 0.0) => {
-                let product = bodies.operator.product(&apart)?;
+                let product = bodies.product(&apart)?;
                 residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);
                 residual
             }
             Some(residual) => residual,
-            None => bodies.operator.residual(&at.x, &at.low, self.load)?,
+            None => bodies.residual(&at.x, &at.low, self.load)?,
         };
         let lack: Vec<f64> = residual.iter().zip(&push).map(|(r, p)| r + p).collect();
         let (merit, eta) = (self.length(&lack), self.eta(&at.x, &residual));
@@ -129,7 +129,7 @@ impl Displacements {
         if !bodies.has_free_unknowns() {
             return Ok(self);
         }
-        let lack = bodies.operator.residual(&self.x, &self.low, load)?;
+        let lack = bodies.residual(&self.x, &self.low, load)?;
         let step = bodies.solve_to((&lack, left), monitor)?;
         Ok(self.moved(-1.0, &step))
     }

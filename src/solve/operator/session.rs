@@ -47,7 +47,12 @@ impl<'b> Session<'b> {
         self.held = None;
         self.factorisations += 1;
         let is_held = asked(monitor, |goes_on| self.operator.hold(held_set, goes_on))?;
-        self.held = is_held.then(|| Rc::new(held_set.clone()));
+        if !is_held {
+            return Err(Ending::Stalled(
+                "the bodies cannot be told from bodies that fall apart: no factor exists with springs on the pairs",
+            ));
+        }
+        self.held = Some(Rc::new(held_set.clone()));
         Ok(())
     }
 
@@ -55,6 +60,28 @@ impl<'b> Session<'b> {
     pub fn has_free_unknowns(&self) -> bool {
         let has_inner = self.operator.inner() > 0;
         self.held.as_ref().is_some_and(|held_set| has_inner || held_set.held.contains(&false))
+    }
+
+    /// `A x`. A host is not asked with numbers that are not finite: the product is none then.
+    ///
+    /// # Errors
+    /// A failure in the host.
+    pub fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
+        match first_not_finite(x) {
+            Some(_) => Ok(vec![f64::NAN; x.len()]),
+            None => self.operator.product(x),
+        }
+    }
+
+    /// `A (x + low) - b`, as [`Self::product`].
+    ///
+    /// # Errors
+    /// A failure in the host.
+    pub fn residual(&self, x: &[f64], low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
+        match first_not_finite(x) {
+            Some(_) => Ok(vec![f64::NAN; x.len()]),
+            None => self.operator.residual(x, low, load),
+        }
     }
 
     /// A solution with the held components at zero, or with the inverse, or what the preconditioner makes of the forces.

@@ -35,6 +35,7 @@ use super::session::Session;
 use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::linalg::least_squares::Columns;
+use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
@@ -77,7 +78,8 @@ impl<'a> System<'a> {
             let pair = law.linearised(piece, y);
             (0..dim).for_each(|c| held_set.held[dim * at + c] = !pair.moves(c));
             if pair.slips && bodies.is_sparse() {
-                held_set.springs[at] = springs(&pair.curvature());
+                let unit = equations.root[equations.inner + dim * at + 1].powi(2);
+                held_set.springs[at] = springs(&pair.curvature(), unit / SUSPICIOUS_PIVOT);
             }
             pairs.push(pair);
         }
@@ -197,7 +199,7 @@ impl<'a> System<'a> {
         if softens {
             self.soften(&mut z[inner..]);
         }
-        let forces = bodies.operator.product(&z)?.split_off(self.first);
+        let forces = bodies.product(&z)?.split_off(self.first);
         Ok(Moved { z, forces })
     }
 
@@ -228,7 +230,7 @@ impl<'a> System<'a> {
         let inner = self.equations.inner;
         let mut released = vec![0.0; forces.len()];
         if self.release(factor, &forces[inner..], &mut released[inner..]) {
-            let asked = bodies.operator.product(&released)?;
+            let asked = bodies.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }
         let mut z = bodies.solve(&forces, monitor)?;
@@ -307,17 +309,21 @@ pub fn changed(a: &HeldSet, b: &HeldSet) -> usize {
 
 /// The springs of a curvature: its symmetric part with negative eigenvalues set to zero. The curvature of an associated
 /// law is that itself; that of a collinear law is not symmetric, and its symmetric part is indefinite where the slip
-/// turns: no factor may exist with it.
-fn springs(plane: &Plane) -> Plane {
+/// turns: no factor may exist with it. Where a slip has hardly begun the curvature may be 1e15 times the stiffness of
+/// the bodies, which its rounding would hide: no spring is more than `stiffest`, beside which nothing moves either.
+fn springs(plane: &Plane, stiffest: f64) -> Plane {
     let [[a, _], [_, c]] = *plane;
     let across = (plane[0][1] + plane[1][0]) / 2.0;
     let (middle, radius) = ((a + c) / 2.0, ((a - c) / 2.0).hypot(across));
     let (least, largest) = (middle - radius, middle + radius);
+    let softer = if largest > stiffest { stiffest / largest } else { 1.0 };
+    let scaled = |part: f64, [a, across, c]: [f64; 3]| {
+        [[part * a, part * across], [part * across, part * c]]
+    };
     if least >= 0.0 {
-        return [[a, across], [across, c]];
+        return scaled(softer, [a, across, c]);
     }
-    let part = largest.max(0.0) / (2.0 * radius);
-    [[part * (a - least), part * across], [part * across, part * (c - least)]]
+    scaled(softer * largest.max(0.0) / (2.0 * radius), [a - least, across, c - least])
 }
 
 /// The tangential components of a pair's part of a vector; the second is 0 in the plane.
