@@ -205,6 +205,8 @@ class Pairs(unittest.TestCase):
         for ring in (0.0, -4.0):
             with self.assertRaisesRegex(ValueError, "give a positive radius"):
                 signorini.pair_obstacle(nodes, face, signorini.Torus([0, 0, 0], [0, 0, 7], 0.5, ring))
+        with self.assertRaisesRegex(ValueError, r"axis of a Torus is \[0 0 0\]: give the direction across its ring"):
+            signorini.pair_obstacle(nodes, face, signorini.Torus([0, 0, 0], [0, 0, 0], 0.5, 4.0))
 
     def test_never_meet(self):
         apart = NODES + np.array([[0, 5]] * 2 + [[0, 0]] * 3)

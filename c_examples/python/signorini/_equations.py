@@ -42,6 +42,12 @@ class Equations:
             dofs=at(self.dofs), coefficients=at(self.coefficients))
         self.address = ctypes.addressof(self.structure)
 
+    def given(self):
+        """The list of which they were made."""
+        ends = zip(self.start, self.start[1:])
+        return [(int(of), self.dofs[begin:end], self.coefficients[begin:end])
+                for of, (begin, end) in zip(self.dependent, ends)]
+
     def extended(self, u):
         """u, and behind its end what the equations give to those that depend on it."""
         size = 1 + max(len(u) - 1, self.dependent.max(initial=-1), self.dofs.max(initial=-1))

@@ -102,6 +102,16 @@ class Owner:
         weakref.finalize(self, free, handle)
 
 
+class Remade:
+    """Pickled and copied deeply by what it was made of, which makes it again; a copy by copy.copy is the same object of
+    the library."""
+
+    def __copy__(self):
+        found = object.__new__(type(self))
+        found.__dict__.update(self.__dict__)
+        return found
+
+
 def check(functions, status, message=None):
     """Raises an error; otherwise the status, and the library's sentence on it."""
     message = functions.last_error().decode() if message is None else message

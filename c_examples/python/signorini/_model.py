@@ -1,6 +1,7 @@
 """Models: a structure reduced to its contact pairs."""
 
 import contextlib
+import copy
 import ctypes
 import warnings
 from collections import namedtuple
@@ -12,7 +13,7 @@ from ._arrays import (at, components, copied, fit, indices, integers, pairs_of, 
 from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
-from ._library import Owner, SignoriniError, check, library
+from ._library import Owner, Remade, SignoriniError, check, library
 from ._meshes import check_sizes, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
@@ -62,7 +63,7 @@ def flexibility(W, triangle):
     return Matrix(W, triangle, name="W") if is_sparse(W) else stiffness("W", W)
 
 
-class Model:
+class Model(Remade):
     """A structure reduced to its contact pairs, for any number of load cases.
 
     Made by Model.condensed, Model.two_body, Model.flexibility, Model.sparse, Model.from_surfaces,
@@ -70,11 +71,13 @@ class Model:
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     kind: a ModelKind.  memory: most bytes that a load case may take beside the model.
     contact: the SurfacePairs of which it was made, by name if these were several, or None.
+    A model can be pickled, unless it is one of functions of the host: another process makes it again of the same
+    matrix, pairs and settings, and its results have the same bits. It keeps a copy of these for that.
     """
 
     def __init__(self, make, *arguments, settings=None):
         self._functions, self.contact, self._zones, self._equations = library(), None, None, None
-        self._host = contextlib.nullcontext()
+        self._host, self._made_of = contextlib.nullcontext(), None
         handle = address()
         function = getattr(self._functions, make)
         if settings is None:
@@ -100,6 +103,19 @@ class Model:
             other if pairwise and shape == (self.host_size // other, other) else None
         )
 
+    def _remember(self, make, *given, settings, contacts=(), **named):
+        """Keeps what made the model, but not what watches the making; its contacts stay the same objects."""
+        settings = {name: value for name, value in settings.items() if name not in ("progress", "time_limit")}
+        memo = {id(one): one for one in contacts}
+        self._made_of = (make, *copy.deepcopy((given, {**named, **settings}), memo))
+        return self
+
+    def __reduce__(self):
+        if self._made_of is None:
+            raise TypeError("a model of functions of the host belongs to this process, and can be neither pickled nor copied "
+                            "deeply: make it again from what its functions use")
+        return _made_again, (type(self), *self._made_of)
+
     @classmethod
     def condensed(cls, K, *, dim=2, **settings):
         """One body on an obstacle. K: condensed stiffness, (N, N). H = N.
@@ -109,7 +125,8 @@ class Model:
         """
         K = stiffness("K", K)
         pairs = pairs_of("K", K, dim)
-        return cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)), settings=settings)
+        model = cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)), settings=settings)
+        return model._remember("condensed", K, dim=dim, settings=settings)
 
     @classmethod
     def two_body(cls, K_A, K_B, *, dim=2, **settings):
@@ -123,8 +140,9 @@ class Model:
         if K_B.shape != K_A.shape:
             raise ValueError(f"K_B has the shape {K_B.shape}: give the shape of K_A, {K_A.shape}")
         size = max(1, len(K_A))
-        return cls("model_new_two_body", dim, pairs, at(K_A), size, at(K_B), size,
-                   settings=settings)
+        model = cls("model_new_two_body", dim, pairs, at(K_A), size, at(K_B), size,
+                    settings=settings)
+        return model._remember("two_body", K_A, K_B, dim=dim, settings=settings)
 
     @classmethod
     def flexibility(cls, W, *, dim=2, triangle="full"):
@@ -136,8 +154,12 @@ class Model:
         W = W if isinstance(W, Matrix) else flexibility(W, triangle)
         pairs = pairs_of("W", W, dim)
         if isinstance(W, Matrix):
-            return cls("model_new_flexibility_sparse", dim, pairs, ctypes.byref(W.structure))
-        return cls("model_new_flexibility", dim, pairs, at(W), max(1, len(W)))
+            model = cls("model_new_flexibility_sparse", dim, pairs, ctypes.byref(W.structure))
+            triangle = W.structure.triangle
+        else:
+            model = cls("model_new_flexibility", dim, pairs, at(W), max(1, len(W)))
+        given = W.given() if isinstance(W, Matrix) else W
+        return model._remember("flexibility", given, dim=dim, triangle=triangle, settings={})
 
     @classmethod
     def operator(cls, dim, pairs, stiffness, inverse=None, *, held=None, units=None,
@@ -207,8 +229,12 @@ class Model:
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows, equations)
-        return cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
-                   ctypes.byref(pairs.structure), settings=settings)
+        model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
+                    ctypes.byref(pairs.structure), settings=settings)
+        return model._remember(
+            "sparse", matrix.given(), slaves, normals, fixed=fixed, masters=masters, weights=weights, tangents=tangents,
+            rows=rows, equations=pairs.equations and pairs.equations.given(), triangle=triangle, order=order,
+            settings=settings)
 
     @classmethod
     def from_surfaces(cls, K, contact, *, fixed=(), equations=None, triangle="full", order=None, **settings):
@@ -234,7 +260,10 @@ class Model:
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
         model.contact, model._zones, model._equations = contact, zones, getattr(rows, "equations", None)
-        return model
+        return model._remember(
+            "from_surfaces", matrix.given(), contact, fixed=fixed,
+            equations=model._equations and model._equations.given(), triangle=triangle, order=order, settings=settings,
+            contacts=zones.contacts.values() if zones else [contact])
 
     @classmethod
     def from_meshes(cls, K, slave, master, *, slave_faces=None, master_faces=None, fixed=(),
@@ -452,3 +481,10 @@ class Model:
         with self._host:
             called = getattr(self._functions, function)
             return check(self._functions, called(self._handle, *arguments))[0]
+
+
+def _made_again(kind, make, given, named):
+    """A model of what it was made of; what was warned of then is known."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return getattr(kind, make)(*given, **named)

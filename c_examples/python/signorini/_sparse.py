@@ -38,6 +38,10 @@ class Matrix:
     def __len__(self):
         return len(self.starts) - 1
 
+    def given(self):
+        """(data, indices, indptr) of its own."""
+        return self.values.copy(), self.rows.copy(), self.starts.copy()
+
 
 class ContactPairs:
     """Contact pairs; structure: signorini_pairs."""

@@ -1,5 +1,6 @@
 """Contact pairs from surfaces, and what a solution means on them."""
 
+import copy
 import ctypes
 from collections import namedtuple
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ from ._arrays import at, components, copied, doubles, fit, indices, integers, pe
 from ._call import Call
 from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
-from ._library import Owner, SignoriniError, check, library
+from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
@@ -119,9 +120,9 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     SignoriniError.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
-    return SurfacePairs("surface_pair", coordinates, slave, master.structure, pairing,
+    return SurfacePairs("surface_pair", coordinates, slave, master, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        (slave_shape, master_shape, fitted, close_within, clearance), time_limit, progress, sector)
+                        (slave_shape, master_shape, fitted, close_within, clearance), sector, time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
@@ -136,13 +137,17 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     """
     coordinates = points(coordinates)
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle, coordinates.shape[1])
-    return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid.structure,
+    return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
-                        time_limit, progress, sector)
+                        sector, time_limit, progress)
 
 
-class SurfacePairs:
+# Of the making of SurfacePairs: what belongs to one process.
+_OF_THIS_PROCESS = ("_functions", "_handle", "_owner", "structure", "_made_of")
+
+
+class SurfacePairs(Remade):
     """P contact pairs from surfaces; made by pair_surfaces or pair_obstacle.
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
@@ -155,12 +160,16 @@ class SurfacePairs:
     overlap one by more; beyond_distances: how far away it is, negative where they overlap.
     summary: one sentence.  report: numbers and areas of signorini_surface_data, n_unpaired as
     unpaired and so on.
+    They can be pickled: another process pairs the same surfaces again, and has the same bits.
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, time_limit, progress, sector):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
+        # Without what watches the pairing: neither time_limit nor progress.
+        self._made_of = (make, self._coordinates, slave, other, *copy.deepcopy((
+            pairing, search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector)))
         self.slave_faces = self.drawn_faces = slave.lists
         self.coordinates = self._coordinates
         settings = sized(
@@ -200,7 +209,7 @@ class SurfacePairs:
         handle, data = address(), sized(SurfaceData)
         status, message = call.run(
             getattr(self._functions, make), self.dim, self.node_count, at(self._coordinates),
-            ctypes.byref(slave.structure), ctypes.byref(other), ctypes.byref(settings),
+            ctypes.byref(slave.structure), ctypes.byref(other.structure), ctypes.byref(settings),
             ctypes.byref(handle))
         if status != 0:
             raise SignoriniError(message, member(Status, status))
@@ -213,6 +222,10 @@ class SurfacePairs:
         # Address of the signorini_pairs for the library; it lives as long as this object.
         self.structure = data.rows
         self._read(data)
+
+    def __reduce__(self):
+        state = {name: value for name, value in self.__dict__.items() if name not in _OF_THIS_PROCESS}
+        return type(self), (*self._made_of, 0.0, None), state
 
     def _read(self, data):
         """Copies the arrays."""
@@ -357,16 +370,20 @@ class _Faces:
             raise ValueError(f"{name} has the shape {faces.shape}: give the nodes of each face, "
                              f"shape (faces, nodes), or a list of lists")
         lists = [integers(f"{name}[{face}]", nodes).ravel() for face, nodes in enumerate(faces)]
-        self.lists = lists
+        self.name, self.lists = name, lists
         self.start = indices(np.cumsum([0, *map(len, lists)]))
         self.nodes = indices(np.concatenate([np.zeros(0, np.int64), *lists]))
         self.structure = sized(Faces, count=len(lists), start=at(self.start), nodes=at(self.nodes))
+
+    def __reduce__(self):
+        return _Faces, (self.name, [self.nodes[begin:end] for begin, end in zip(self.start, self.start[1:])])
 
 
 class _Rigid:
     """An obstacle; structure: signorini_obstacle."""
 
     def __init__(self, obstacle, dim):
+        self.made_of = copy.deepcopy((obstacle, dim))
         if isinstance(obstacle, RigidFaces):
             self.coordinates = points(obstacle.coordinates).copy()
             self.faces = _Faces("faces", obstacle.faces)
@@ -376,6 +393,9 @@ class _Rigid:
                 faces=ctypes.cast(ctypes.byref(self.faces.structure), address))
         else:
             self.structure = _shape(obstacle, dim)
+
+    def __reduce__(self):
+        return _Rigid, self.made_of
 
 
 def _shape(obstacle, dim):
@@ -403,6 +423,8 @@ def _shape(obstacle, dim):
                      hollow=bool(obstacle.hollow))
     if isinstance(obstacle, Torus):
         axis = reals("axis", obstacle.axis)
+        if not 0 < np.linalg.norm(axis) < np.inf:
+            raise ValueError(f"axis of a Torus is {axis}: give the direction across its ring, of any length but zero")
         if not obstacle.ring > 0:
             raise ValueError(f"ring of a Torus is {obstacle.ring}: give a positive radius")
         return sized(RigidObstacle, kind=Obstacle.TORUS, point=three(obstacle.centre),

@@ -8,7 +8,7 @@ import numpy as np
 from ._arrays import at, copied, reals
 from ._constants import State
 from ._law import Friction
-from ._library import Owner, check, library
+from ._library import Owner, Remade, check, library
 from ._structures import ContactZone, SurfaceData, address, sized
 from ._surfaces import SurfacePairs, write_zones
 
@@ -41,12 +41,13 @@ class Zone:
         return np.ascontiguousarray(found)
 
 
-class Zones:
+class Zones(Remade):
     """Pairs of several zones, one zone after the other; contacts: the SurfacePairs by name."""
 
     def __init__(self, contacts):
         if not contacts:
             raise ValueError("zones is empty: give at least one zone, its name and its SurfacePairs")
+        self._made_of = (dict(contacts),)
         # Without a zone that has a law, the law of a case is that of all pairs.
         self.has_laws = any(isinstance(zone, Zone) for zone in contacts.values())
         zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
@@ -60,6 +61,9 @@ class Zones:
         self._join(zones)
         ends = np.cumsum([0, *(contact.pairs for contact in self.contacts.values())])
         self.places = {name: slice(begin, end) for name, begin, end in zip(self.contacts, ends, ends[1:])}
+
+    def __reduce__(self):
+        return type(self), self._made_of
 
     def __getattr__(self, name):
         raise AttributeError(f"the pairs of several zones have no {name}: ask those of one, result.zone(name).contact")
