@@ -4,6 +4,7 @@
 pub(crate) mod approximate_inverse;
 pub(crate) mod ball;
 pub(crate) mod columns;
+pub(crate) mod congruence;
 pub(crate) mod conjugate_gradients;
 pub(crate) mod definite;
 pub(crate) mod dense;

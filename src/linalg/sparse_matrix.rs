@@ -6,7 +6,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use super::double_double::{two_product, two_sum};
 use super::simd::vectorised;
-use super::watched::GoesOn;
+use super::tolerances::ROUNDING;
 
 /// Compressed columns, rows ascending.
 pub type Csc = SparseColMat<usize, f64>;
@@ -162,55 +162,28 @@ pub fn as_column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(x, length, 1)
 }
 
-/// The first `columns` columns of `Wᵀ A W`, in two parts: the lower triangle of their first `columns`
-/// rows, and all later rows; `None` where `goes_on` says no. `lower` is the lower triangle of the symmetric `A`.
-///
-/// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
-/// no product needs the upper triangle.
-pub fn congruence(
-    mut lower: Csc,
-    w: &Csc,
-    columns: usize,
-    goes_on: GoesOn<'_>,
-) -> Result<Option<(Csc, Csc)>, OutOfMemory> {
-    for j in 0..lower.ncols() {
-        if diagonal(&lower, j).is_some() {
-            let place = lower.symbolic().col_ptr()[j];
-            lower.val_mut()[place] *= 0.5;
-        }
-    }
-    let half = product(&lower, w)?;
-    drop(lower);
-    if !goes_on() {
-        return Ok(None);
-    }
-    let half = product(&transposed(w)?, &half)?;
-    if !goes_on() {
-        return Ok(None);
-    }
-    let mirrored = transposed(&half)?;
-    if !goes_on() {
-        return Ok(None);
-    }
-    // Each entry of the product gives one of the lower triangle at the most.
-    let (mut leading, mut below) =
-        (Columns::with_capacity(half.compute_nnz())?, Columns::default());
-    for j in 0..columns {
-        for (i, one, other) in both(&half, &mirrored, j, j) {
-            let (part, row) =
-                if i < columns { (&mut leading, i) } else { (&mut below, i - columns) };
-            part.row.push(row);
-            part.values.push(one + other);
-        }
-        leading.end_column();
-        below.end_column();
-    }
-    Ok(Some((leading.matrix(columns), below.matrix(w.ncols() - columns))))
-}
-
 /// `A B`.
 pub fn product(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
     sparse_sparse_matmul(a.as_ref(), b.as_ref(), 1.0, Par::Seq).map_err(|_| OutOfMemory)
+}
+
+/// `A B`. A sum of which only rounding is left is zero, and stays stored.
+pub fn product_without_rounding(a: &Csc, b: &Csc) -> Result<Csc, OutOfMemory> {
+    let mut found = product(a, b)?;
+    let sizes = product(&absolute(a), &absolute(b))?;
+    for (value, size) in found.val_mut().iter_mut().zip(sizes.val()) {
+        if value.abs() <= ROUNDING * size {
+            *value = 0.0;
+        }
+    }
+    Ok(found)
+}
+
+/// `|A|`, entry by entry.
+pub fn absolute(a: &Csc) -> Csc {
+    let mut sizes = a.clone();
+    sizes.val_mut().iter_mut().for_each(|value| *value = value.abs());
+    sizes
 }
 
 /// A matrix that is made column by column.

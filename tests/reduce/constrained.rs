@@ -1,7 +1,7 @@
 //! A structure with equations between its degrees of freedom, whole and as hosts have it that eliminate them.
 
 use signorini::reduce::{ContactPairs, Equations};
-use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
+use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 use crate::common::dense::{difference, dot, largest, product};
 use crate::common::mesh::Stiffness;
@@ -150,6 +150,11 @@ impl Constrained {
 
     /// The model of the whole matrix, from which the library eliminates dependents.
     pub fn whole(&self, settings: &Settings) -> Model {
+        self.tried(settings).unwrap()
+    }
+
+    /// That model, or why it is refused.
+    pub fn tried(&self, settings: &Settings) -> Result<Model, Error> {
         self.model(&self.stiffness, &self.fixed, &|dof| dof, settings)
     }
 
@@ -162,7 +167,7 @@ impl Constrained {
             Err(_) => count + 3 * dof + 1,
         };
         let stiffness = self.reduced().stiffness;
-        self.model(&stiffness, &self.places_of_fixed(), &number, settings)
+        self.model(&stiffness, &self.places_of_fixed(), &number, settings).unwrap()
     }
 
     fn model(
@@ -171,7 +176,7 @@ impl Constrained {
         fixed: &[usize],
         number: &dyn Fn(usize) -> usize,
         settings: &Settings,
-    ) -> Model {
+    ) -> Result<Model, Error> {
         let size = (0..).find(|n| n * n == stiffness.len()).unwrap();
         let (mut start, mut dofs, mut vectors) = (vec![0], vec![], vec![]);
         for row in &self.rows {
@@ -198,7 +203,7 @@ impl Constrained {
             ..ContactPairs::default()
         };
         let monitor = &mut Monitor::new(settings, None);
-        sparse(stiffness, size).model_under(fixed, &pairs, monitor).unwrap()
+        sparse(stiffness, size).model_under(fixed, &pairs, monitor)
     }
 
     /// Asserts, in the whole structure, that a solution balances, `Eᵀ (K u - f - Bᵀ F) = 0` but at supports,

@@ -15,6 +15,7 @@ mod frames;
 mod general_rows;
 mod motion_words;
 mod reductions;
+mod rigid_bodies;
 mod sparse_condensation;
 mod sparse_contact;
 mod sparse_messages;

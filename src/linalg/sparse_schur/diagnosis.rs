@@ -23,6 +23,9 @@ pub fn diagnosed(
     let numeric = loop {
         match factorised(parts, matrix, &mut values, progress) {
             Ok(numeric) => break numeric,
+            Err(Failure::Indefinite(row)) if is_unresisted(matrix, row) => {
+                return Err(Failure::NullVector(unit_vector(matrix.ncols(), row)));
+            }
             Err(Failure::Indefinite(_)) if !singular => singular = true,
             Err(failure) => return Err(failure),
         }
@@ -50,8 +53,7 @@ fn weakest_motion(
     place: usize,
     goes_on: GoesOn<'_>,
 ) -> Option<Vec<f64>> {
-    let mut x = vec![0.0; structure.size];
-    x[place] = 1.0;
+    let mut x = unit_vector(structure.size, place);
     for _ in 0..INVERSE_ITERATIONS {
         solve::forward(structure, values, &mut x, goes_on)?;
         x[structure.eliminated..].fill(0.0);
@@ -65,6 +67,18 @@ fn weakest_motion(
 /// `lower` triangle given.
 fn resistance(lower: &Csc, x: &[f64]) -> f64 {
     norm_inf(&symmetric_times(lower, x)) / norm_inf(&symmetric_magnitude(lower, &sizes(x)))
+}
+
+/// `true` if nothing resists the motion of a row alone: its entries are zero.
+fn is_unresisted(lower: &Csc, row: usize) -> bool {
+    let own_column = symmetric_times(lower, &unit_vector(lower.ncols(), row));
+    norm_inf(&own_column) == 0.0
+}
+
+fn unit_vector(size: usize, place: usize) -> Vec<f64> {
+    let mut unit = vec![0.0; size];
+    unit[place] = 1.0;
+    unit
 }
 
 /// Multiplies the diagonal entry of column `j`, which is stored first.

@@ -9,7 +9,7 @@ use super::structure::Structure;
 use crate::linalg::free_motions::{self, Doubt, StiffnessDefect, Whole, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
-use crate::linalg::vector::{dot, sizes};
+use crate::linalg::vector::{dot, largest_of, sizes};
 use crate::linalg::watched::GoesOn;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
@@ -58,7 +58,7 @@ impl SparseSchur {
         let kept = (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default());
         let mut units: Vec<f64> = kept.collect();
         // A component of a rigid body has no stiffness of its own: the stiffest other one is its unit.
-        let largest = units.iter().fold(0.0, |largest: f64, unit| largest.max(*unit));
+        let largest = largest_of(units.iter().copied());
         let of_rigid = if largest > 0.0 { largest } else { 1.0 };
         units.iter_mut().filter(|unit| **unit == 0.0).for_each(|unit| *unit = of_rigid);
         let least = suspicious_pivot(weakest.map_or(1.0, |(_, pivot)| pivot));

@@ -11,8 +11,9 @@
 //! condensed the spring becomes as stiff as the other components of its pair.
 
 use super::supports::FixedComponent;
+use crate::linalg::congruence::congruence;
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, congruence, from_columns, from_entries, product, times, transpose_times,
+    Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
 };
 use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure};
 use crate::linalg::vector::norm_inf;
@@ -83,7 +84,8 @@ impl ChangeOfVariables {
         let rows = host_size + springs;
         let mut matrix = from_entries((rows, unknowns + fixed), entries.into_iter())?;
         if !dependents.is_empty() {
-            matrix = product(&with_dependents(rows, host_size, dependents)?, &matrix)?;
+            matrix =
+                product_without_rounding(&with_dependents(rows, host_size, dependents)?, &matrix)?;
         }
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
     }

@@ -1,0 +1,125 @@
+//! `Wᵀ A W` of a sparse symmetric `A`, with zeros where only rounding is left.
+//!
+//! Where the columns of `W` are motions of many degrees of freedom, as those of a rigid body, the terms of an entry may
+//! cancel. A diagonal entry that is no larger than the rounding of its terms says that `A` does not resist the motion,
+//! which then has no force on any other one: the entries of its row that are rounding too become zero. Left as
+//! they are they would pass for a stiffness, or for a negative one.
+
+use super::sparse_matrix::{
+    Columns, Csc, OutOfMemory, absolute, both, column, diagonal, from_entries, product, transposed,
+};
+use super::tolerances::ROUNDING;
+use super::watched::GoesOn;
+
+/// The first `columns` columns of `Wᵀ A W`, in two parts: the lower triangle of their first `columns`
+/// rows, and all later rows; `None` where `goes_on` says no. `lower` is the lower triangle of the symmetric `A`.
+///
+/// With `A = H + Hᵀ`, `H` the lower triangle with half the diagonal, it is `Wᵀ H W` and its transpose:
+/// no product needs the upper triangle.
+pub fn congruence(
+    mut lower: Csc,
+    w: &Csc,
+    columns: usize,
+    goes_on: GoesOn<'_>,
+) -> Result<Option<(Csc, Csc)>, OutOfMemory> {
+    for j in 0..lower.ncols() {
+        if diagonal(&lower, j).is_some() {
+            let place = lower.symbolic().col_ptr()[j];
+            lower.val_mut()[place] *= 0.5;
+        }
+    }
+    let half = product(&lower, w)?;
+    let unresisted = Unresisted::new(&lower, w, &half, columns)?;
+    drop(lower);
+    if !goes_on() {
+        return Ok(None);
+    }
+    let half = product(&transposed(w)?, &half)?;
+    if !goes_on() {
+        return Ok(None);
+    }
+    let mirrored = transposed(&half)?;
+    if !goes_on() {
+        return Ok(None);
+    }
+    // Each entry of the product gives one of the lower triangle at the most.
+    let (mut leading, mut below) =
+        (Columns::with_capacity(half.compute_nnz())?, Columns::default());
+    for j in 0..columns {
+        for (i, one, other) in both(&half, &mirrored, j, j) {
+            let (part, row) =
+                if i < columns { (&mut leading, i) } else { (&mut below, i - columns) };
+            let value = one + other;
+            let rounding = unresisted.as_ref().is_some_and(|of| of.is_rounding((i, j), value));
+            part.row.push(row);
+            part.values.push(if rounding { 0.0 } else { value });
+        }
+        leading.end_column();
+        below.end_column();
+    }
+    Ok(Some((leading.matrix(columns), below.matrix(w.ncols() - columns))))
+}
+
+/// The columns of `W` that `A` resists with no more than rounding.
+struct Unresisted {
+    /// The place of each column of `W` among them.
+    places: Vec<Option<usize>>,
+    /// Their columns of `|W|ᵀ |A| |W|`: the sizes of the terms.
+    sizes: Csc,
+}
+
+impl Unresisted {
+    /// Looks among the first `columns` of `W`; `None` if there is none. `lower` is `H`, and `half` is `H W`.
+    fn new(lower: &Csc, w: &Csc, half: &Csc, columns: usize) -> Result<Option<Self>, OutOfMemory> {
+        // No term of a semi-definite matrix is larger than these roots allow, so that few columns are looked at.
+        let diagonal = (0..lower.ncols()).map(|i| 2.0 * diagonal(lower, i).unwrap_or_default());
+        let roots: Vec<f64> = diagonal.map(|entry| entry.abs().sqrt()).collect();
+        let energy = |j: usize| {
+            2.0 * both(w, half, j, 0).map(|(_, motion, force)| motion * force).sum::<f64>()
+        };
+        let most = |j: usize| {
+            let (rows, values) = column(w, j);
+            rows.iter().zip(values).map(|(&i, value)| value.abs() * roots[i]).sum::<f64>().powi(2)
+        };
+        let weak: Vec<usize> = (0..columns).filter(|&j| energy(j) < ROUNDING * most(j)).collect();
+        if weak.is_empty() {
+            return Ok(None);
+        }
+        let sizes = sizes_of_terms(lower, w, &weak)?;
+        let mut places = vec![None; w.ncols()];
+        for (k, &j) in weak.iter().enumerate() {
+            let is_rounding = energy(j).abs() <= ROUNDING * entry(&sizes, j, k);
+            places[j] = is_rounding.then_some(k);
+        }
+        Ok(Some(Unresisted { places, sizes }))
+    }
+
+    /// `true` if a `value` of the product belongs to one of the columns, and is rounding.
+    fn is_rounding(&self, (i, j): (usize, usize), value: f64) -> bool {
+        let size = |row, column: usize| Some(entry(&self.sizes, row, self.places[column]?));
+        size(i, j).or_else(|| size(j, i)).is_some_and(|size| value.abs() <= ROUNDING * size)
+    }
+}
+
+/// `|W|ᵀ |A|` times some columns of `|W|`; `lower` is `H`.
+fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfMemory> {
+    let half = absolute(lower);
+    let entries = (0..half.ncols()).flat_map(|j| {
+        let (rows, values) = column(&half, j);
+        rows.iter().zip(values).flat_map(move |(&i, &value)| [(i, j, value), (j, i, value)])
+    });
+    let whole = from_entries((half.nrows(), half.ncols()), entries)?;
+    let w = absolute(w);
+    let entries = columns.iter().enumerate().flat_map(|(k, &j)| {
+        let (rows, values) = column(&w, j);
+        rows.iter().zip(values).map(move |(&i, &value)| (i, k, value))
+    });
+    let chosen = from_entries((w.nrows(), columns.len()), entries)?;
+    product(&transposed(&w)?, &product(&whole, &chosen)?)
+}
+
+/// An entry; 0 if it is not stored.
+fn entry(a: &Csc, i: usize, j: usize) -> f64 {
+    let (rows, values) = column(a, j);
+    rows.binary_search(&i).map_or(0.0, |place| values[place])
+}
