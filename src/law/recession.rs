@@ -76,9 +76,8 @@ impl PairLaw {
         }
     }
 
-    /// Some edges of the cone of forces that the pair can carry beside its tension, each with the normal
-    /// component −1: all in the plane, four in space; none without an obstacle. The law's bound is a cone. A tie carries
-    /// all forces.
+    /// Some edges of the cone of the forces without bound that the pair can carry, each with the normal
+    /// component −1: all in the plane, four in space; none without an obstacle. A tie carries all forces.
     pub fn cone_edges(&self) -> Vec<Vector> {
         let mu = self.bound.slope;
         match self.dim {
@@ -99,7 +98,7 @@ impl PairLaw {
     }
 
     /// The edge of the cone whose force does the least work on the motion `r`: the work is
-    /// `-(r_n + slope |r_t|*)`. The law's bound is a cone.
+    /// `-(r_n + slope |r_t|*)`.
     pub fn opposing_edge(&self, r: &[f64]) -> Vector {
         if self.tied {
             let against = |c: usize| r.get(c).map_or(0.0, |r| -r);

@@ -127,3 +127,54 @@ fn block_on_a_plane_rests_below_the_friction_angle_and_slides_above() {
     }
     assert!(unsolved <= rests / 50, "{unsolved} of {rests} blocks at rest not solved");
 }
+
+/// `K = 1 - Q Qᵀ` of two motions without a step towards an obstacle, which nothing but contact holds; `None` if a component
+/// is left without stiffness.
+fn of_two_motions(rng: &mut Rng, pairs: usize) -> Option<Vec<f64>> {
+    let n = 2 * pairs;
+    let drawn = |rng: &mut Rng, i: usize| {
+        f64::from(if i % 2 == 0 { -rng.i32(0..=3) } else { rng.i32(-3..=3) })
+    };
+    let [first, second] = [(); 2].map(|()| (0..n).map(|i| drawn(rng, i)).collect::<Vec<f64>>());
+    let unit = |v: Vec<f64>| {
+        let length = dot(&v, &v).sqrt();
+        v.iter().map(|x| x / length).collect::<Vec<f64>>()
+    };
+    let first = unit(first);
+    let along = dot(&first, &second);
+    let second = unit(second.iter().zip(&first).map(|(x, u)| x - along * u).collect());
+    let entry = |i: usize, j: usize| {
+        f64::from(u8::from(i == j)) - first[i] * first[j] - second[i] * second[j]
+    };
+    let is_stiff = (0..n).all(|i| entry(i, i) >= 0.05);
+    is_stiff.then(|| (0..n * n).map(|k| entry(k % n, k / n)).collect())
+}
+
+/// A motion that proves that no equilibrium exists under Coulomb's law proves it with cohesion `b` and tension `a` too, if the
+/// loads do more work on it than these can take, `sum b |r_t| + a |r_n|`.
+#[test]
+fn loads_that_outwork_cohesion_leave_no_equilibrium() {
+    let (mu, b, a, mut proved) = (0.3, 0.5, 0.25, 0);
+    for seed in 0..600 {
+        let rng = &mut Rng::with_seed(seed);
+        let pairs = rng.usize(2..=3);
+        let Some(k) = of_two_motions(rng, pairs) else { continue };
+        let f: Vec<f64> = (0..2 * pairs).map(|_| f64::from(rng.i32(-9..=9))).collect();
+        let (gap, law) = (vec![0.0; pairs], Law::Coulomb(vec![mu; pairs]));
+        let case = Case { dim: 2, pairs, k, f, gap, law, slip: None };
+        let found = case.solve(&Settings::default());
+        if found.status != Status::NoEquilibrium {
+            continue;
+        }
+        let r = motion(&found);
+        let taken: f64 = r.chunks(2).map(|r| a * r[0].abs() + b * r[1].abs()).sum();
+        if dot(&case.f, r) > 1.01 * taken {
+            let case = Case { law: Law::Cohesive([mu, b, a].repeat(pairs)), ..case };
+            let found = case.solve(&Settings::default());
+            assert_eq!(found.status, Status::NoEquilibrium, "seed {seed}: {}", found.message);
+            assert_eq!(flaw_of_escape(&case, motion(&found)), None, "seed {seed}");
+            proved += 1;
+        }
+    }
+    assert!(proved > 100, "{proved}");
+}

@@ -265,8 +265,8 @@ fn by_attempts(
     Ok(best)
 }
 
-/// Ends with a free motion that proves that no equilibrium exists: one that the balance of the loads finds, where admissible
-/// forces are cones, or that of the displacements that Newton's method has ended with.
+/// Ends with a free motion that proves that no equilibrium exists: one that the balance of the loads finds, or that of the
+/// displacements that Newton's method has ended with.
 fn balance(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,

@@ -4,7 +4,8 @@
 //! With a basis `N` of the motions that `K` does not resist, balance is `Nᵀ (f + F) = 0` for forces
 //! `F` in the friction cones. The forces that come nearest leave `e = Nᵀ (f + F)`; if it is not zero,
 //! `r = N e` is a motion on which the loads do work, `f . r = |e|²`, and no admissible force does
-//! negative work: what [`crate::certificate::is_escape`] asks of a proof.
+//! negative work: what [`crate::certificate::is_escape`] asks of a proof. Forces that a law bounds, as cohesion does, take
+//! no part; the certificate asks if the work of the loads is more than theirs.
 //!
 //! In space a cone has infinitely many edges. The projection begins with a few (non-negative least
 //! squares); where a force of a cone does negative work on `r`, the edge of the least work joins, and
@@ -42,8 +43,7 @@ const STEPS: usize = 20;
 /// Rounds of cutting planes: a hundred were the most where it converged.
 const MOST_ROUNDS: usize = 300;
 
-/// A recession direction that the loads drive, where the admissible forces are cones; `None` also if there is
-/// no time to look for it.
+/// A recession direction that the loads drive; `None` also if there is no time to look for it.
 pub fn escape(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
     Balance::new(contact, monitor)?.escape()
 }
@@ -100,12 +100,9 @@ impl<'c, R: Relation> Balance<'c, R> {
         if (self.proves)(&rigid) { rigid } else { motion }
     }
 
-    /// A recession direction that the loads drive, where the admissible forces are cones.
+    /// A recession direction that the loads drive, if it is found by the cones in which forces have no bound.
     pub fn escape(&self) -> Option<Vec<f64>> {
         let contact = self.contact;
-        if !contact.bounds().all(|bound| bound.is_cone()) {
-            return None;
-        }
         let load = self.on_motions(contact.load_with_tension(), 0);
         let mut edges = Vec::new();
         for (pair, law) in contact.pairs().iter().enumerate() {
