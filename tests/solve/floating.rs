@@ -133,7 +133,7 @@ fn block_on_a_plane_rests_below_the_friction_angle_and_slides_above() {
 fn of_two_motions(rng: &mut Rng, pairs: usize) -> Option<Vec<f64>> {
     let n = 2 * pairs;
     let drawn = |rng: &mut Rng, i: usize| {
-        f64::from(if i % 2 == 0 { -rng.i32(0..=3) } else { rng.i32(-3..=3) })
+        f64::from(if i.is_multiple_of(2) { -rng.i32(0..=3) } else { rng.i32(-3..=3) })
     };
     let [first, second] = [(); 2].map(|()| (0..n).map(|i| drawn(rng, i)).collect::<Vec<f64>>());
     let unit = |v: Vec<f64>| {
