@@ -379,11 +379,15 @@ struct signorini_contact_zone {
  * Joins the pairs of contact zones: the result has all pairs, one zone after the other, as
  * data.zone_start tells, and data.friction for SIGNORINI_LAW_BY_PAIR. It is an object of its own:
  * the zones may be released. All calls take it, and each zone's own pairs with its part of d, F and
- * state.
+ * state, unless zones cut a smooth surface.
  *
  * A node may be slave in one zone and master in another. A face that is slave in two zones is
- * refused if both have a pair of one of its nodes: pair it once, with the masters of both. A node
- * of faces of its own in each of two zones has two pairs: a flat contact is one zone.
+ * refused if both have a pair of one of its nodes: pair it once, with the masters of both. A slave
+ * node of faces of its own in each of two zones has two pairs at an edge of the body, where their
+ * normals are more than 45 degrees apart. Where zones cut a smooth surface it has one pair, the sum
+ * of both, in the first zone and with its law, and none in the other one. Then a part of d, F and
+ * state belongs to joined pairs alone: the resultant of a zone is that of joined with an F that is
+ * 0 at the pairs of other zones.
  *
  * @param n_zones  number of zones, at least 1
  * @param zones    the zones, paired on one mesh with one numbering

@@ -15,7 +15,7 @@ use super::surface_fields::pair_results;
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::law::State;
 use crate::problem::Law;
-use crate::surface::{ContactZone, join_zones, summary_of_zones};
+use crate::surface::{ContactZone, Joined, join_zones};
 
 /// A contact zone for signorini_surface_join.
 #[repr(C)]
@@ -43,11 +43,15 @@ const OF_NODE: usize = 256;
 /// Joins the pairs of contact zones: the result has all pairs, one zone after the other, as
 /// data.zone_start tells, and data.friction for SIGNORINI_LAW_BY_PAIR. It is an object of its own:
 /// the zones may be released. All calls take it, and each zone's own pairs with its part of d, F and
-/// state.
+/// state, unless zones cut a smooth surface.
 ///
 /// A node may be slave in one zone and master in another. A face that is slave in two zones is
-/// refused if both have a pair of one of its nodes: pair it once, with the masters of both. A node
-/// of faces of its own in each of two zones has two pairs: a flat contact is one zone.
+/// refused if both have a pair of one of its nodes: pair it once, with the masters of both. A slave
+/// node of faces of its own in each of two zones has two pairs at an edge of the body, where their
+/// normals are more than 45 degrees apart. Where zones cut a smooth surface it has one pair, the sum
+/// of both, in the first zone and with its law, and none in the other one. Then a part of d, F and
+/// state belongs to joined pairs alone: the resultant of a zone is that of joined with an F that is
+/// 0 at the pairs of other zones.
 ///
 /// @param n_zones  number of zones, at least 1
 /// @param zones    the zones, paired on one mesh with one numbering
@@ -86,7 +90,8 @@ pub unsafe extern "C" fn signorini_surface_join(
         let parts: Vec<ContactZone<'_>> = zones.iter().map(|zone| zone.part).collect();
         let joined = join_zones(&parts).map(|found| {
             let (nodes, numbering) = (first.contact.nodes, first.contact.numbering.clone());
-            SignoriniSurfacePairs::new(found, nodes, numbering, joined_zones(&zones))
+            let told = joined_zones(&zones, &found, &parts);
+            SignoriniSurfacePairs::new(found.contact, nodes, numbering, told)
         });
         place.fill(joined, |_| ZONES)
     })
@@ -199,16 +204,16 @@ impl<'h> Zone<'h> {
 }
 
 /// What the joined pairs hold of their zones.
-fn joined_zones(zones: &[Zone<'_>]) -> JoinedZones {
-    let summary = summary_of_zones(zones.iter().map(|zone| (zone.part.name, &zone.contact.found)));
-    let mut joined = JoinedZones { summary, starts: vec![0], ..JoinedZones::default() };
-    for zone in zones {
-        let pairs = zone.contact.arrays.count;
-        joined.names.push(zone.part.name.to_owned());
-        joined.starts.push(joined.starts[joined.starts.len() - 1] + pairs as i64);
-        joined.friction.extend(std::iter::repeat_n(zone.friction, pairs).flatten());
+fn joined_zones(zones: &[Zone<'_>], found: &Joined, parts: &[ContactZone<'_>]) -> JoinedZones {
+    let pairs = found.starts.windows(2).map(|ends| ends[1] - ends[0]);
+    let friction = zones.iter().zip(pairs);
+    let friction = friction.flat_map(|(zone, pairs)| std::iter::repeat_n(zone.friction, pairs));
+    JoinedZones {
+        names: zones.iter().map(|zone| zone.part.name.to_owned()).collect(),
+        starts: found.starts.iter().map(|&start| start as i64).collect(),
+        friction: friction.flatten().collect(),
+        summary: found.summary(parts),
     }
-    joined
 }
 
 impl SignoriniSurfacePairs {

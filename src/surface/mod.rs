@@ -74,4 +74,4 @@ pub use sector::Sector;
 pub use settings::{Normals, Pairing, Rims, SurfaceSettings, TrueShape};
 pub use surfaces::{Faces, Master, Surfaces};
 pub use symmetry_plane::SymmetryPlane;
-pub use zones::{ContactZone, join_zones, summary_of_zones};
+pub use zones::{ContactZone, Joined, join_zones};

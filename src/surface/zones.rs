@@ -1,11 +1,13 @@
 //! Contact zones in one set of pairs, one zone after the other.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::pairs::{SurfacePairs, SurfaceReport};
+use super::candidates::SAME_WAY;
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::surfaces::Faces;
 use crate::error::{Argument, Error, Message, index};
-use crate::linalg::vector3::Vector3;
+use crate::linalg::tolerances::ROUNDING;
+use crate::linalg::vector3::{Vector3, unit, without};
 
 /// A contact zone: its name, its pairs, and the slave faces that they were made of.
 #[derive(Clone, Copy, Debug)]
@@ -18,48 +20,81 @@ pub struct ContactZone<'a> {
     pub slave: Faces<'a>,
 }
 
+/// Zones in one set of pairs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Joined {
+    /// The pairs, one zone after the other. The lists of faces in the report, which count in each zone by themselves, are empty.
+    pub contact: SurfacePairs,
+    /// The first pair of each zone, and the number of all pairs.
+    pub starts: Vec<usize>,
+}
+
 /// Joins zones. A node may be slave in one zone and master in another, and a slave node of several zones by faces of its
-/// own in each. The lists of faces in the report, which count in each zone by themselves, are empty.
+/// own in each. At an edge of the body it has a pair in each of them. Where zones cut a smooth surface it has one, in the first
+/// of them, which is the sum of its rows in all: a row of dual mortar is a sum over the faces at its node, so that this one is
+/// the row of the node on the whole surface.
 ///
 /// # Errors
 /// [`Argument::Pairs`]: no zone, a name that is empty or stands twice, zones of different dimensions or one of revolution
 /// among others, and a slave face of two zones of which both have the pair of a node on the same side: they would press on it
 /// twice.
-pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<SurfacePairs, Error> {
-    let refuse = |message: String| Err(Error::invalid(Argument::Pairs, message));
-    let Some(first) = zones.first() else { return refuse("there is no zone".into()) };
+pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
+    check(zones).map_err(|message| Error::invalid(Argument::Pairs, message))?;
     let mut joined = SurfacePairs {
-        dim: first.contact.dim,
-        axisymmetric: first.contact.axisymmetric,
+        dim: zones[0].contact.dim,
+        axisymmetric: zones[0].contact.axisymmetric,
         ..SurfacePairs::default()
     };
+    let mut starts = vec![0];
+    // The places of the pairs of a node.
+    let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
+    for ContactZone { name, contact, .. } in zones {
+        joined.images.join(&contact.images).map_err(|_| {
+            let message =
+                format!("zone '{name}' is in another sector than zone '{}'", zones[0].name);
+            Error::invalid(Argument::Pairs, message)
+        })?;
+        joined.held.extend(contact.held.clone());
+        for pair in &contact.pairs {
+            let of_node = places.entry(pair.slave).or_default();
+            let same = of_node.iter().find(|&&at| joined.pairs[at].is_of_the_surface_of(pair));
+            if let Some(&at) = same {
+                let held = joined.held(pair.slave);
+                joined.pairs[at].take_in(pair, &held);
+            } else {
+                of_node.push(joined.pairs.len());
+                joined.pairs.push(pair.clone());
+            }
+        }
+        joined.unpaired.extend(&contact.unpaired);
+        joined.report.add(&contact.report);
+        starts.push(joined.pairs.len());
+    }
+    let mut told = HashSet::new();
+    joined.unpaired.retain(|node| !places.contains_key(node) && told.insert(*node));
+    Ok(Joined { contact: joined, starts })
+}
+
+/// What is wrong with zones, in words.
+fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
+    let Some(first) = zones.first() else { return Err("there is no zone".into()) };
     for (place, zone) in zones.iter().enumerate() {
         let (name, contact) = (zone.name, zone.contact);
         if name.is_empty() {
-            return refuse(format!("zone {} has no name", index(place)));
+            return Err(format!("zone {} has no name", index(place)));
         }
         if zones[..place].iter().any(|other| other.name == name) {
-            return refuse(format!("two zones are named '{name}'"));
+            return Err(format!("two zones are named '{name}'"));
         }
         let named = |what: &str| format!("zone '{name}' {what} zone '{}'", first.name);
-        if contact.dim != joined.dim {
-            return refuse(named(&format!("is in {} dimensions, unlike", contact.dim)));
+        if contact.dim != first.contact.dim {
+            return Err(named(&format!("is in {} dimensions, unlike", contact.dim)));
         }
-        if contact.axisymmetric != joined.axisymmetric {
-            return refuse(named("is of revolution and not, or not and is, unlike"));
+        if contact.axisymmetric != first.contact.axisymmetric {
+            return Err(named("is of revolution and not, or not and is, unlike"));
         }
-        if joined.images.join(&contact.images).is_err() {
-            return refuse(named("is in another sector than"));
-        }
-        joined.pairs.extend(contact.pairs.iter().cloned());
-        joined.unpaired.extend(&contact.unpaired);
-        joined.held.extend(contact.held.clone());
-        joined.report.add(&contact.report);
     }
-    match shared_face(zones) {
-        Some(message) => refuse(message),
-        None => Ok(joined),
-    }
+    shared_face(zones).map_or(Ok(()), Err)
 }
 
 /// The words for a slave face of two zones of which both have the pair of a node.
@@ -100,10 +135,70 @@ fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
     None
 }
 
-/// What was found in zones, in a sentence for each.
-pub fn summary_of_zones<'a>(zones: impl Iterator<Item = (&'a str, &'a SurfacePairs)>) -> Message {
-    let parts = zones.map(|(name, contact)| format!("{name}: {}", contact.summary().marked()));
-    parts.collect::<Vec<_>>().join(". ").into()
+impl Joined {
+    /// What was found in the zones that were joined, in a sentence for each, and how many pairs are in others.
+    pub fn summary(&self, zones: &[ContactZone<'_>]) -> Message {
+        let told =
+            |zone: &ContactZone<'_>| format!("{}: {}", zone.name, zone.contact.summary().marked());
+        let mut parts: Vec<String> = zones.iter().map(told).collect();
+        let own: usize = zones.iter().map(|zone| zone.contact.pairs.len()).sum();
+        let taken_in = own - self.contact.pairs.len();
+        if taken_in > 0 {
+            parts.push(format!(
+                "Where zones cut a smooth surface, {taken_in} pairs of later zones are in those of the same nodes in \
+                 earlier ones, with the law of these"
+            ));
+        }
+        parts.join(". ").into()
+    }
+}
+
+impl SurfacePair {
+    /// Returns `true` if the faces of both, around one node, are parts of one smooth surface, and both face bodies or
+    /// obstacles.
+    fn is_of_the_surface_of(&self, other: &SurfacePair) -> bool {
+        let [own, others] = [self, other].map(|pair| Vector3::from(pair.normal));
+        own.dot(&others) > SAME_WAY && self.masters().is_empty() == other.masters().is_empty()
+    }
+
+    /// Adds the row of the same node on other faces around it, by its area. The node is held along orthonormal directions.
+    fn take_in(&mut self, other: &SurfacePair, held: &[Vector3]) {
+        let area = self.area + other.area;
+        let [own, others] = [self.area / area, other.area / area];
+        let mean = |a: f64, b: f64| own * a + others * b;
+        let mean_vector =
+            |a: [f64; 3], b: [f64; 3]| own * Vector3::from(a) + others * Vector3::from(b);
+        self.add_nodes(other, [own, others]);
+        self.point = mean_vector(self.point, other.point).into();
+        self.gap = mean(self.gap, other.gap);
+        self.measured_gap = mean(self.measured_gap, other.measured_gap);
+        let normal = without(mean_vector(self.normal, other.normal), held);
+        let normal = unit(normal).unwrap_or_else(|| self.normal.into());
+        // The tangents hardly turn, so that slips in the frames of the zone are those of the joined pair.
+        let [first, second] = self.tangents.map(|tangent| {
+            let tangent = Vector3::from(tangent);
+            tangent - normal.dot(&tangent) * normal
+        });
+        let first = unit(first).unwrap_or(first);
+        let second = if second == Vector3::zeros() { second } else { normal.cross(&first) };
+        self.tangents = [first.into(), second.into()];
+        (self.normal, self.area) = (normal.into(), area);
+    }
+
+    /// Adds the nodes of another row, by the shares of both. Weights that are zero but for rounding are left out.
+    fn add_nodes(&mut self, other: &SurfacePair, shares: [f64; 2]) {
+        // Slaves, then masters.
+        let mut weights: BTreeMap<(bool, usize), f64> = BTreeMap::new();
+        for (pair, share) in [&*self, other].into_iter().zip(shares) {
+            for (at, (node, weight)) in pair.nodes.iter().enumerate() {
+                let is_master = at >= pair.slave_count;
+                *weights.entry((is_master, *node)).or_default() += share * weight;
+            }
+        }
+        weights.retain(|_, weight| weight.abs() > ROUNDING);
+        self.slave_count = weights.keys().filter(|(is_master, _)| !is_master).count();
+        self.nodes = weights.into_iter().map(|((_, node), weight)| (node, weight)).collect();
+    }
 }
 
 impl SurfaceReport {

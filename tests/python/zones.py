@@ -124,6 +124,65 @@ class Zones(unittest.TestCase):
         self.assertTrue((whole.state == State.SLIP).all(), "a law of the case stands for those of the zones")
         np.testing.assert_array_equal(model.solve(self.load, law="frictionless").F[:, 1], 0)
 
+    def test_a_surface_that_is_cut(self):
+        """A line of two faces, a zone each, on nodes with springs of 1 over a line on springs of 2: where p presses a node,
+        p = 2 (1 - 0.1) / 3 with its load of 1, the middle one is a node of both zones."""
+        at = np.array([[0, 0.1], [1, 0.1], [2, 0.1], [0, 0], [1, 0], [2, 0]])
+        springs = (np.repeat([1.0, 2.0], 6), np.arange(12), np.arange(13))
+        contacts = {"left": signorini.pair_surfaces(at, [[0, 1]], [[4, 3], [5, 4]]),
+                    "right": signorini.pair_surfaces(at, [[1, 2]], [[4, 3], [5, 4]])}
+        zones = {"left": signorini.Zone(contacts["left"], 0.2), "right": signorini.Zone(contacts["right"], law="tied")}
+        model = signorini.Model.from_surfaces(springs, zones)
+        self.assertEqual(model.pairs, 3)
+        load, p = np.zeros(12), 2 * (1 - 0.1) / 3
+        load[1:6:2] = -1
+        load[2] = 1.0
+        result = model.solve(load)
+        left, right = result.zone("left"), result.zone("right")
+        # The law of the middle node is that of the first zone: it slides, by 1 - 0.2 p against 0.2 p / 2.
+        self.assertEqual(result.state.tolist(), [State.STICK, State.SLIP, State.STICK])
+        np.testing.assert_allclose(np.abs(left.d[1, 1]), 1 - 0.3 * p, atol=1e-9)
+        np.testing.assert_array_equal(left.d[1], right.d[0])
+        for part, force in (left, [p, p / 2]), (right, [p / 2, p]):
+            np.testing.assert_allclose(-part.F[:, 0], force, atol=1e-9)
+        fields = [part.contact.fields(part).pressure[1] for part in (left, right)]
+        np.testing.assert_allclose(fields, p, atol=1e-9)
+        forces = [row.force[1] for row in result.table()]
+        np.testing.assert_allclose(forces, 1.5 * p, atol=1e-9)
+        self.assertIn("1 pairs of later zones are in those of the same nodes", result.contact.summary)
+        # The middle node has the gap of the first zone, or of both as they were paired.
+        gaps = {name: contact.gaps for name, contact in contacts.items()}
+        np.testing.assert_array_equal(model.solve(load, gaps).d, result.d)
+        wide = model.solve(load, {"left": 5.0, "right": contacts["right"].gaps})
+        self.assertEqual(wide.state.tolist(), [State.OPEN, State.OPEN, State.STICK])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "cut.vtu")
+            result.contact.write(path, {"line": [[0, 1], [1, 2]]}, result)
+            np.testing.assert_allclose(arrays_of(path)["pressure"][1], p, atol=1e-9)
+
+    def test_a_node_of_two_zones_has_the_frames_of_each(self):
+        """A plate that is cut, whose second half is seen as leaning a little, so that its first tangent is another one."""
+        at = np.array([[x, y, z] for z in (0.1, 0.0) for y in (0.0, 1.0) for x in (0.0, 1.0, 2.0)])
+        at[[2, 5], 2] += 1e-3
+        contacts = {name: signorini.pair_surfaces(at, [[x, x + 3, x + 4, x + 1]], [[6, 7, 10, 9], [7, 8, 11, 10]])
+                    for name, x in (("left", 0), ("right", 1))}
+        springs = (np.repeat([1.0, 2.0], 18), np.arange(36), np.arange(37))
+        model = signorini.Model.from_surfaces(springs, contacts)
+        load = np.zeros(36)
+        load[0:18:3], load[1:18:3], load[2:18:3] = 0.7, 0.4, -1.0
+        result = model.solve(load, mu=0.1)
+        self.assertEqual((result.status, model.pairs), (Status.SOLVED, 6))
+        for name, contact in contacts.items():
+            part = result.zone(name)
+            host = contact.resultant(part).force
+            # Friction is against the push; leaning by 1e-3 turns forces by so much.
+            np.testing.assert_allclose(host[:2] / host[2], 0.1 * np.array([-0.7, -0.4]) / np.hypot(0.7, 0.4), atol=3e-3)
+            for node, d in zip(contact.nodes, part.d):
+                pair = np.flatnonzero(contact.nodes == node)[0]
+                first = contact.tangents[pair]
+                moved = d[1] * first + d[2] * np.cross(contact.normals[pair], first)
+                np.testing.assert_allclose(moved[1] / moved[0], 4 / 7, atol=5e-3)
+
     def test_names_are_told(self):
         with self.assertRaisesRegex(KeyError, "mu names the zone 'bolt', there is none: the zones are 'above', 'below'"):
             self.model.solve(self.load, mu={"bolt": 0.1})

@@ -4,9 +4,11 @@
 use crate::common::brick20::Brick20;
 use crate::common::dense::largest;
 use crate::common::mesh::Stiffness;
-use crate::surfaces::pair;
+use crate::surfaces::{flat, pair};
 use signorini::reduce::ContactPairs;
-use signorini::surface::{PairArrays, SurfacePairs, SurfaceSettings};
+use signorini::surface::{
+    ContactZone, Faces, PairArrays, SurfacePairs, SurfaceSettings, join_zones,
+};
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 
 const PRESSURE: f64 = 7.0;
@@ -161,6 +163,51 @@ fn quadratic_faces_pass_the_patch_test() {
             blocks.assert_balanced(&model, &fixed, &arrays, &solution);
         }
     }
+}
+
+/// A contact that is cut in two zones has the pressures and displacements of the whole, with friction and a load that is not
+/// uniform: to a hundred times the tolerance.
+#[test]
+fn a_cut_contact_is_the_whole_one() {
+    let mut blocks = Blocks::new([[3, 3, 1], [2, 2, 1]]);
+    for (dof, load) in blocks.load.iter_mut().enumerate() {
+        let [x, y, z] = blocks.nodes[dof / 3];
+        *load *= 1.0 + x + 0.5 * y;
+        *load += if dof % 3 == 0 && z == 0.6 { 0.01 } else { 0.0 };
+    }
+    let fixed: Vec<usize> = (0..3).flat_map(|axis| blocks.fixed(axis, |p| p[2] == -0.8)).collect();
+    let [master, slave] = &blocks.faces;
+    let whole = blocks.found(true);
+    let is_left = |face: &&Vec<usize>| face.iter().all(|&node| blocks.nodes[node][0] <= 0.5);
+    let (left, right): (Vec<_>, Vec<_>) = slave.iter().partition(is_left);
+    let parts = [left, right].map(|part| part.into_iter().cloned().collect::<Vec<_>>());
+    let contacts = parts
+        .each_ref()
+        .map(|part| pair(3, &blocks.nodes, [part, master], &SurfaceSettings::default()).unwrap());
+    let lists = parts.each_ref().map(|part| flat(part));
+    let zone = |at: usize| {
+        let (start, nodes) = &lists[at];
+        let slave = Faces { start, nodes };
+        ContactZone { name: ["left", "right"][at], contact: &contacts[at], slave }
+    };
+    let joined = join_zones(&[zone(0), zone(1)]).unwrap().contact;
+    let [cut, whole] = [joined, whole].map(|found| {
+        let arrays = found.rows();
+        let model = model(&blocks.stiffness, &fixed, &arrays);
+        let solution = solve(&model, &blocks.load, &arrays.gaps, 0.3, 1e-12);
+        assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+        let u = model.recover(Some(&blocks.load), None, &solution.d).unwrap();
+        let force = solution.certificate.force.chunks(3).zip(&arrays.areas);
+        let pressure =
+            found.pairs.iter().zip(force).map(|(pair, (f, area))| (pair.slave, -f[0] / area));
+        (u, pressure.collect::<std::collections::BTreeMap<usize, f64>>())
+    });
+    for (own, expected) in cut.0.iter().zip(&whole.0) {
+        assert!((own - expected).abs() < 1e-10 * largest(&whole.0));
+    }
+    let most = whole.1.values().copied().fold(0.0, f64::max);
+    assert!(cut.1.keys().eq(whole.1.keys()) && most > PRESSURE);
+    assert!(cut.1.iter().all(|(node, pressure)| (pressure - whole.1[node]).abs() < 1e-10 * most));
 }
 
 /// A quarter: slaves on the planes of symmetry are fixed along their normals, their masters off the planes

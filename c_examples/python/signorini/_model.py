@@ -243,7 +243,8 @@ class Model(Remade):
         K, fixed, equations, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
         Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
-        in one zone and master in another. A Zone in the place of SurfacePairs has a law of its own, which a case
+        in one zone and master in another; zones that cut a smooth surface have one pair for a node of the cut, with the
+        numbers of the first of them. A Zone in the place of SurfacePairs has a law of its own, which a case
         without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict too, with
         the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
@@ -363,7 +364,7 @@ class Model(Remade):
         self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
         found = (self._zones or self.contact).penetration(self.extended(u))
         # Larger gaps of the caller are of surfaces that the coordinates do not show, infinite ones of pairs that never touch.
-        larger = case.gap - (self._zones.all("_paired_gaps") if self._zones else self.contact._paired_gaps)
+        larger = case.gap - (self._zones or self.contact)._paired_gaps
         if not found or found.depth <= _PASS_BY * larger[np.isfinite(larger)].max(initial=0.0):
             return None
         warnings.warn(found.sentence, stacklevel=3)
@@ -446,7 +447,7 @@ class Model(Remade):
     def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
         if self._zones is not None:
-            gap = self._zones.all("gaps") if gap is None else self._zones.joined("gap", gap)
+            gap = self._zones.gaps() if gap is None else self._zones.joined("gap", gap)
             slip0 = self._zones.joined("slip0", slip0)
             friction.values = self._zones.joined(friction.name, friction.values)
             if self._zones.has_laws and not friction.is_given:

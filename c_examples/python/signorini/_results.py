@@ -54,7 +54,10 @@ class Result(_Fields):
         return tuple(self._replace(contact=None))
 
     def zone(self, name):
-        """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs."""
+        """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs.
+
+        The force of a pair that zones share, where they cut a smooth surface, is shared by their areas.
+        """
         return self._zones().of(self, name)
 
     def table(self):
