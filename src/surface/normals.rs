@@ -33,7 +33,7 @@ pub(super) fn direction(sum: Vector3, area: f64) -> Option<Vector3> {
 pub(super) fn cancel(node: usize) -> Error {
     let message = format!(
         "the normals of the slave faces at node {} cancel: leave out those of them that cannot touch, or pair \
-         the two sides of a thin body in two calls",
+         the two sides of a thin body in two calls and join them as two zones",
         index(node)
     );
     Error::invalid(Argument::SlaveFaces, message)

@@ -3,7 +3,8 @@
 //!
 //! A moved point of the slave has passed through a moved master if that lies behind it along its normal before the motion,
 //! and the same point of the master was not behind it before. What was, as layers behind each other are and surfaces that overlap
-//! from the beginning, is left to the pairs.
+//! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
+//! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
 
 use std::collections::HashSet;
 

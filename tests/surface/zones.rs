@@ -295,3 +295,24 @@ fn corners_keep_a_pair_in_each_zone() {
     let joined = paired(2, &nodes, &[wall, floor], &SurfaceSettings::default());
     assert_eq!(joined.starts, [0, 2, 4]);
 }
+
+/// A thin body of one layer of faces with both sides in one list is refused, and the remedy that is named works: of two zones
+/// each node has a pair to either side.
+#[test]
+fn both_sides_of_a_thin_body_are_two_zones() {
+    let at = |height: f64| [0.0, 1.0, 2.0].map(|x| [x, height, 0.0]);
+    let nodes = [at(0.0), at(0.1), at(-0.2)].concat();
+    let settings = SurfaceSettings::default();
+    let [down, up] = [vec![vec![0, 1], vec![1, 2]], vec![vec![2, 1], vec![1, 0]]];
+    let [below, above] = [vec![vec![7, 6], vec![8, 7]], vec![vec![3, 4], vec![4, 5]]];
+    let both = [[&down[..], &up].concat(), [&below[..], &above].concat()];
+    let error = pair(2, &nodes, [&both[0], &both[1]], &settings).unwrap_err().to_string();
+    assert!(error.contains("in two calls and join them as two zones"), "{error}");
+    let Joined { contact, starts } = paired(2, &nodes, &[[down, below], [up, above]], &settings);
+    assert_eq!(starts, [0, 3, 6]);
+    for (pair, (gap, normal)) in
+        contact.pairs.iter().zip([[(0.2, -1.0); 3], [(0.1, 1.0); 3]].concat())
+    {
+        assert!((pair.gap - gap).abs() < 1e-15 && pair.normal[1] == normal);
+    }
+}
