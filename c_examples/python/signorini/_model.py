@@ -72,7 +72,7 @@ class Model(Remade):
     kind: a ModelKind.  memory: most bytes that a load case may take beside the model.
     contact: the SurfacePairs of which it was made, by name if these were several, or None.
     A model can be pickled, unless it is one of functions of the host: another process makes it again of the same
-    matrix, pairs and settings, and its results have the same bits. It keeps a copy of these for that.
+    matrix, pairs and settings, and its results have the same bits. It keeps copies of these for that, but of a condensed K.
     """
 
     def __init__(self, make, *arguments, settings=None):
@@ -114,7 +114,10 @@ class Model(Remade):
         if self._made_of is None:
             raise TypeError("a model of functions of the host belongs to this process, and can be neither pickled nor copied "
                             "deeply: make it again from what its functions use")
-        return _made_again, (type(self), *self._made_of)
+        make, given, named = self._made_of
+        # The library has K already.
+        given = (self.stiffness,) if make == "condensed" else given
+        return _made_again, (type(self), make, given, named)
 
     @classmethod
     def condensed(cls, K, *, dim=2, **settings):
@@ -126,7 +129,7 @@ class Model(Remade):
         K = stiffness("K", K)
         pairs = pairs_of("K", K, dim)
         model = cls("model_new_condensed", dim, pairs, at(K), max(1, len(K)), settings=settings)
-        return model._remember("condensed", K, dim=dim, settings=settings)
+        return model._remember("condensed", dim=dim, settings=settings)
 
     @classmethod
     def two_body(cls, K_A, K_B, *, dim=2, **settings):
