@@ -114,37 +114,55 @@ fn second_boundary(
     side: &Side<'_>,
     watch: &mut Watch<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
-    let (nodes, near) = (side.all_nodes(), side.nearness() / side.scale);
-    let place = |node: usize| vector(&side.coordinates[side.dim * node..][..side.dim]);
-    let cell = |x: Vector3| (x / (2.0 * near)).map(f64::floor);
-    let key = |cell: Vector3| cell.map(f64::to_bits);
-    let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
-    for &node in &nodes {
-        cells.entry(key(cell(place(node)) + Vector3::zeros())).or_default().push(node);
-    }
-    let step = |k: i32| [k % 3, k / 3 % 3, k / 9].map(|step| f64::from(step - 1));
-    let around = || (0..27).map(|k| Vector3::from(step(k)));
-    let (mut second, next) = (BTreeMap::new(), sector.image(1));
-    for node in nodes {
-        watch.goes_on()?;
-        let image = next(place(node));
-        let cells = around().filter_map(|step| cells.get(&key(cell(image) + step)));
-        let at_image = |other: &&usize| (place(**other) - image).norm() <= near;
-        let same: Vec<usize> = cells.flatten().filter(at_image).copied().collect();
+    let nodes = side.all_nodes();
+    let place = |node: &usize| vector(&side.coordinates[side.dim * node..][..side.dim]);
+    let places: Vec<Vector3> = nodes.iter().map(place).collect();
+    let near = side.nearness() / side.scale;
+    let found = at_images(&places, sector.image(1), near, || watch.goes_on())?;
+    let mut second = BTreeMap::new();
+    for (place, same) in found.into_iter().enumerate() {
         if let [a, b, ..] = same[..] {
             let what = format!(
                 "sector: nodes {} and {} of one side stand at one place on its boundary: pair the two parts apart",
-                index(a),
-                index(b)
+                index(nodes[a]),
+                index(nodes[b])
             );
             return Err(Error::invalid(Argument::Settings, what));
         }
         // Of two sectors each boundary is the image of the other.
-        let is_first = |other: &&usize| **other != node && !second.contains_key(&node);
+        let is_first = |other: &&usize| **other != place && !second.contains_key(&nodes[place]);
         let image = same.first().filter(is_first).copied();
-        second.extend(image.map(|other| (other, node)));
+        second.extend(image.map(|other| (nodes[other], nodes[place])));
     }
     Ok(second)
+}
+
+/// For each point those that are at its image, nearer than `near`.
+///
+/// # Errors
+/// Those of `goes_on`, which is asked for each point.
+pub(super) fn at_images<E>(
+    points: &[Vector3],
+    image: impl Fn(Vector3) -> Vector3,
+    near: f64,
+    mut goes_on: impl FnMut() -> Result<(), E>,
+) -> Result<Vec<Vec<usize>>, E> {
+    let cell = |x: Vector3| (x / (2.0 * near)).map(f64::floor);
+    let key = |cell: Vector3| cell.map(f64::to_bits);
+    let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
+    for (at, x) in points.iter().enumerate() {
+        cells.entry(key(cell(*x) + Vector3::zeros())).or_default().push(at);
+    }
+    let step = |k: i32| [k % 3, k / 3 % 3, k / 9].map(|step| f64::from(step - 1));
+    let around = || (0..27).map(|k| Vector3::from(step(k)));
+    let of_point = |x: &Vector3| {
+        goes_on()?;
+        let image = image(*x);
+        let cells = around().filter_map(|step| cells.get(&key(cell(image) + step)));
+        let is_there = |other: &&usize| (points[**other] - image).norm() <= near;
+        Ok(cells.flatten().filter(is_there).copied().collect())
+    };
+    points.iter().map(of_point).collect()
 }
 
 /// Refuses a slave side on one of whose faces the image of a node lies, and no node there.

@@ -3,8 +3,11 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
+use super::mesh::ON_PLANE;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::surfaces::Faces;
+use super::sweep::Bounds;
+use super::with_images::at_images;
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, unit, without};
@@ -36,8 +39,8 @@ pub struct Joined {
 ///
 /// # Errors
 /// [`Argument::Pairs`]: no zone, a name that is empty or stands twice, zones of different dimensions or one of revolution
-/// among others, and a slave face of two zones of which both have the pair of a node on the same side: they would press on it
-/// twice.
+/// among others, zones of different sectors, or of which one has one boundary of a slave and another one the other, and a slave
+/// face of two zones of which both have the pair of a node on the same side: they would press on it twice.
 pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     check(zones).map_err(|message| Error::invalid(Argument::Pairs, message))?;
     let mut joined = SurfacePairs {
@@ -70,6 +73,8 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
         joined.report.add(&contact.report);
         starts.push(joined.pairs.len());
     }
+    check_boundary(&joined, &starts, zones)
+        .map_err(|message| Error::invalid(Argument::Pairs, message))?;
     let mut told = HashSet::new();
     joined.unpaired.retain(|node| !places.contains_key(node) && told.insert(*node));
     Ok(Joined { contact: joined, starts })
@@ -95,6 +100,39 @@ fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
         }
     }
     shared_face(zones).map_or(Ok(()), Err)
+}
+
+/// Refuses pairs of two zones at one place of a sector's boundary: each has half of a row, as no zone has both.
+fn check_boundary(
+    joined: &SurfacePairs,
+    starts: &[usize],
+    zones: &[ContactZone<'_>],
+) -> Result<(), String> {
+    if joined.images.are_none() {
+        return Ok(());
+    }
+    let points: Vec<Vector3> = joined.pairs.iter().map(|pair| pair.point.into()).collect();
+    let Bounds { low, high } = Bounds::of(points.iter().copied());
+    let near = ON_PLANE * (high - low).amax();
+    let zone = |pair: usize| starts.partition_point(|start| *start <= pair) - 1;
+    let image = |x| joined.images.image(x, 1);
+    let found = at_images(&points, image, near, || Ok::<(), String>(()))?;
+    for (pair, same) in found.into_iter().enumerate() {
+        let normal = joined.images.turn(1) * Vector3::from(joined.pairs[pair].normal);
+        let is_half = |other: &&usize| {
+            let others = Vector3::from(joined.pairs[**other].normal);
+            zone(**other) != zone(pair) && normal.dot(&others) > SAME_WAY
+        };
+        if let Some(&other) = same.iter().find(is_half) {
+            let [(own, a), (others, b)] =
+                [pair, other].map(|at| (zones[zone(at)].name, index(joined.pairs[at].slave)));
+            return Err(format!(
+                "node {a} of zone '{own}' and node {b} of zone '{others}' are images of each other on the boundary of the \
+                 sector: give the slave faces at both to one zone"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The words for a slave face of two zones of which both have the pair of a node.

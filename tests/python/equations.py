@@ -217,6 +217,13 @@ class Sectors(unittest.TestCase):
             signorini.sector_equations(twice, signorini.Sector(5, (0.0, 0.0)))
         with self.assertRaisesRegex(signorini.SignoriniError, "give the axis of the sector, and the number of sectors"):
             signorini.pair_surfaces(places, ring, hub, sector=(9, (0.0, 0.0)))
+        # Two zones, each with one boundary of the ring.
+        zones = {name: signorini.pair_surfaces(places, faces, hub, sector=(5, (0.0, 0.0)), search_distance=0.5)
+                 for name, faces in (("first", ring[:2]), ("second", ring[2:]))}
+        springs = np.ones(places.size), np.arange(places.size), np.arange(places.size + 1)
+        wanted = "node 0 of zone 'first' and node 3 of zone 'second' are images of each other"
+        with self.assertRaisesRegex(signorini.SignoriniError, wanted):
+            signorini.Model.from_surfaces(springs, zones)
 
 
 class Decks(unittest.TestCase):
