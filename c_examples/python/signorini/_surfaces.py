@@ -189,7 +189,7 @@ class SurfacePairs(Remade):
         along = [int(abs(normal).argmax()) for normal in across if np.count_nonzero(normal) == 1]
         self.symmetry_axes = along + ([0] if axisymmetric else [])
         settings.symmetry_planes = len(across)
-        settings.symmetry_normals, settings.symmetry_at = at(across), at(places)
+        settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
         if sector is not None:
             sector = Sector(*sector)
             if not sector.count:
