@@ -207,6 +207,27 @@ class Sectors(unittest.TestCase):
         v = u[3:6]
         np.testing.assert_allclose(u[6:], axis * (axis @ v) + np.cross(axis, v), atol=1e-15)
 
+    def test_the_skin_of_a_sector_is_without_its_boundaries(self):
+        """Boundaries are inside of the whole body: the skin pairs as the faces at the interface alone do."""
+        def mesh(radii):
+            angles = np.pi / 3 * np.arange(4) / 3
+            at = np.array([[r * np.cos(a), r * np.sin(a)] for a in angles for r in radii])
+            quads = [[3 * i + k, 3 * i + k + 1, 3 * i + k + 4, 3 * i + k + 3] for i in range(3) for k in range(2)]
+            return at, {"quad": np.array(quads)}
+
+        def interface(at):
+            return abs(np.hypot(*at.T) - 1) < 1e-6
+
+        ring, hub = mesh((1.0, 1.2, 1.5)), mesh((0.5, 0.8, 1.0))
+        sector = signorini.Sector(6, (0.0, 0.0))
+        whole, named = (signorini.pair_meshes(ring, hub, slave_faces=faces, master_faces=faces, sector=sector)
+                        for faces in (None, interface))
+        self.assertEqual(whole.nodes.tolist(), named.nodes.tolist())
+        np.testing.assert_allclose(whole.areas, named.areas, rtol=1e-12)
+        for (dofs, vectors), (others, expected) in zip(whole.rows, named.rows):
+            self.assertEqual(dofs.tolist(), others.tolist())
+            np.testing.assert_allclose(vectors, expected, atol=1e-12)
+
     def test_boundaries_that_do_not_match(self):
         places, (ring, hub), _, first = self.ring(5, False, 2)
         bodies = 1 * (np.arange(len(places)) >= first)

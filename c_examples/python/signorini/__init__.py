@@ -50,8 +50,7 @@ or that of the system. Needs numpy. Threads may share everything here.
 from ._condensed import certify, prove, solve, write
 from ._constants import (ABI_VERSION, Fallback, Law, Method, ModelKind, Normals, Pairing, Proof, Remark,
                          Rims, Search, State, Status, Triangle, Uniqueness)
-from ._equations import (read_equations, rigid_equations, section_equations, sector_equations,
-                         turned_equations)
+from ._equations import read_equations, rigid_equations, section_equations, turned_equations
 from ._files import ContactProblem, LcpProblem, read
 from ._lcp import lcp_lemke, lcp_solve, write_lcp
 from ._flexibility import solve_flexibility
@@ -60,16 +59,17 @@ from ._mesh import write_mesh, write_series
 from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
-from ._surfaces import (Cone, Cylinder, Fields, Penetration, Plane, Resultant, RigidFaces, Sector, Sphere, SurfacePairs, Torus,
+from ._sector import Sector, sector_equations
+from ._surfaces import (Cone, Cylinder, Fields, Penetration, Plane, Resultant, RigidFaces, Sphere, SurfacePairs, Torus,
                         pair_obstacle, pair_surfaces)
 from ._zones import Zone
 
 __all__ = [
-    "ABI_VERSION", "Cone", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law",
-    "LcpProblem", "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Penetration", "Plane", "Progress",
-    "Proof", "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "SignoriniError", "Sphere", "State", "Status",
-    "SurfacePairs", "Torus", "Triangle", "Uniqueness", "certify", "lcp_lemke", "lcp_solve", "load",
-    "Zone",
-    "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",
-    "section_equations", "sector_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp", "write_mesh", "write_series",
+    "ABI_VERSION", "Cone", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law", "LcpProblem",
+    "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Penetration", "Plane", "Progress", "Proof",
+    "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "Sector", "SignoriniError", "Sphere", "State",
+    "Status", "SurfacePairs", "Torus", "Triangle", "Uniqueness", "Zone", "certify", "lcp_lemke", "lcp_solve",
+    "load", "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",
+    "section_equations", "sector_equations", "solve", "solve_flexibility", "turned_equations", "write", "write_lcp",
+    "write_mesh", "write_series",
 ]

@@ -1,12 +1,10 @@
 """Equations between degrees of freedom: for the library, of turned axes and rigid bodies, and from decks."""
 
 import ctypes
-from itertools import product
 
 import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
-from ._mesh import points
 from ._mpc import mpc
 from ._structures import EquationList, sized
 
@@ -66,7 +64,7 @@ def turned_equations(dofs, own, turn):
     dofs: those that follow, (n, D).  own: those of u', (n, D): of the same nodes in their own axes, or of the
     nodes whose images they are.  turn: (D, D), or (n, D, D); its columns are the own axes, orthogonal unit vectors.
     """
-    dofs, own = _nodes("dofs", dofs), _nodes("own", own)
+    dofs, own = nodal_dofs("dofs", dofs), nodal_dofs("own", own)
     count, dim = dofs.shape
     if own.shape != dofs.shape:
         raise ValueError(f"own has the shape {own.shape}: give as many as dofs, shape {dofs.shape}")
@@ -77,50 +75,6 @@ def turned_equations(dofs, own, turn):
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
 
 
-def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
-    """Equations of the nodes on the second boundary of a Sector, u = turn @ u' of those on the first; and of nodes on its axis.
-
-    coordinates: of all nodes, (n, D).  bodies: a number for each node, (n,), that tells nodes of two bodies apart that
-    stand at one place; None: no two do.  dofs: of each node, (n, D); None: D * node + axis. Leave dofs of the second
-    boundary out of fixed, and put the loads of its nodes where they act.
-    """
-    coordinates = points(coordinates)
-    count, dim = coordinates.shape
-    bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
-    dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else _nodes("dofs", dofs)
-    axis = np.array([0.0, 0.0, 1.0]) if dim == 2 else reals("axis", sector.axis)
-    axis = axis / np.linalg.norm(axis)
-    angle, (x, y, z) = 2 * np.pi / sector.count, axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    turn, arms = turn[:dim, :dim], coordinates - reals("point", sector.point)
-    images, near = arms @ turn.T, 1e-6 * np.ptp(coordinates, axis=0).max()
-    cells = {}
-    for node, cell in enumerate(map(tuple, np.floor(arms / (2 * near)))):
-        cells.setdefault(cell, []).append(node)
-    second, first, found = [], [], []
-    for node, image in enumerate(images):
-        if np.linalg.norm(image - arms[node]) <= near:
-            # A turn leaves the part along the axis.
-            kept = abs(axis).argmax()
-            along = [] if dim == 2 else [int(dofs[node, kept])]
-            found += [(int(dofs[node, c]), along, [axis[c] / axis[kept]] * len(along))
-                      for c in range(dim) if dim == 2 or c != kept]
-            continue
-        around = product(*((cell - 1, cell, cell + 1) for cell in np.floor(image / (2 * near))))
-        same = [other for cell in around for other in cells.get(cell, ())
-                if bodies[other] == bodies[node] and np.linalg.norm(arms[other] - image) <= near]
-        if len(same) > 1:
-            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
-                             "tells them apart")
-        if node not in second:  # of two sectors, each boundary is the image of the other
-            second, first = second + same, first + [node] * len(same)
-    if not second:
-        raise ValueError(f"no node is the image of another, turned by one of {sector.count} sectors about the axis: "
-                         "nodes of the two boundaries must match")
-    return turned_equations(dofs[second], dofs[first], turn) + found
-
-
 def section_equations(dofs, opposite, shortening, axis):
     """Equations of a section through a body, as of a bolt, with its shortening as one more unknown.
 
@@ -129,7 +83,7 @@ def section_equations(dofs, opposite, shortening, axis):
     K without entries. Its load is the force of the section, positive if it pulls; fixed, its value is the shortening.
     axis: the direction from the side of opposite to that of dofs, of any length, (D,).
     """
-    dofs, opposite = _nodes("dofs", dofs), _nodes("opposite", opposite)
+    dofs, opposite = nodal_dofs("dofs", dofs), nodal_dofs("opposite", opposite)
     count, dim = dofs.shape
     if opposite.shape != dofs.shape:
         raise ValueError(f"opposite has the shape {opposite.shape}: give as many as dofs, shape {dofs.shape}")
@@ -147,7 +101,7 @@ def rigid_equations(dofs, coordinates, reference, motion):
     dofs: of the nodes, (n, D).  coordinates: their places, (n, D).  reference: the place of U, (D,).  motion: the
     dof numbers of U and theta, 6, in the plane 3.
     """
-    dofs = _nodes("dofs", dofs)
+    dofs = nodal_dofs("dofs", dofs)
     count, dim = dofs.shape
     arms = fit("coordinates", coordinates, [(count, dim)], f"one place for each node, shape {(count, dim)}")
     arms = arms - fit("reference", reference, [(dim,)], f"a place, shape {(dim,)}")
@@ -270,7 +224,7 @@ def _real(word):
     return float(word.upper().replace("D", "E"))
 
 
-def _nodes(name, values):
+def nodal_dofs(name, values):
     values = integers(name, values)
     if values.ndim != 2 or values.shape[1] not in (2, 3):
         raise ValueError(f"{name} has the shape {values.shape}: give the dof numbers of each node, shape (n, D), D 2 or 3")

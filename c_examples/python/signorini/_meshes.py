@@ -5,6 +5,7 @@ import numpy as np
 from ._arrays import integers, reals
 from ._library import SignoriniError
 from ._mesh import TYPES, points
+from ._sector import Sector, without_cuts
 from ._skin import corners, dimension, skin, turned
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
@@ -22,7 +23,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     points and cells as meshio reads it. Nodes count on: those of the slave's mesh, then those of
     the master's. The same object twice: one mesh with both bodies, whose nodes count once. master
     may be a Plane, Sphere, Cylinder, Cone, Torus or RigidFaces.
-    slave_faces, master_faces: None, the whole skin of the mesh; the name of a set of cells or of a
+    slave_faces, master_faces: None, the whole skin of the mesh, of a sector without its boundaries; the name of a set of cells or of a
     physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
     that tells for each node whether its faces of the skin belong, which they do if all of their
     nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
@@ -32,7 +33,8 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
     has a volume. The rest: as for pair_surfaces.
     """
-    first = _Mesh("slave", slave)
+    sector = pairing.get("sector") and Sector(*pairing["sector"])
+    first = _Mesh("slave", slave, sector)
     if isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         if master_faces is not None:
             raise ValueError("master_faces is given, but master is an obstacle: leave it out")
@@ -45,7 +47,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
             raise ValueError("slave and master are one mesh: give slave_faces and master_faces")
         others = first.faces("master_faces", master_faces)
         return _covered(first.coordinates, faces, others, pairing)
-    second = _Mesh("master", master)
+    second = _Mesh("master", master, sector)
     if second.coordinates.shape[1] != first.coordinates.shape[1]:
         raise ValueError(f"slave has {first.coordinates.shape[1]} coordinates for each node and master "
                          f"{second.coordinates.shape[1]}: give two meshes of one dimension")
@@ -123,8 +125,8 @@ def _normal(x):
 class _Mesh:
     """Coordinates, (n, D), and blocks of cells: (type, nodes)."""
 
-    def __init__(self, name, mesh):
-        self.name, self.mesh = name, mesh
+    def __init__(self, name, mesh, sector=None):
+        self.name, self.mesh, self.sector = name, mesh, sector
         if hasattr(mesh, "points") and hasattr(mesh, "cells"):
             coordinates, cells = mesh.points, mesh.cells
         elif isinstance(mesh, tuple) and len(mesh) == 2:
@@ -150,7 +152,8 @@ class _Mesh:
     def faces(self, argument, wanted):
         """Faces as lists of nodes, turned to the outside where they lie on the skin."""
         if wanted is None:
-            return self._some(self.skin, f"{self.name} has no cells with an inside: give {argument}")
+            skin = self.skin if self.sector is None else without_cuts(self.skin, self.coordinates, self.sector)
+            return self._some(skin, f"{self.name} has no cells with an inside: give {argument}")
         if isinstance(wanted, str):
             return self._some(self._of_set(argument, wanted), f"{argument}: the set {wanted!r} has no faces")
         if callable(wanted):

@@ -13,6 +13,7 @@ from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
+from ._sector import Sector
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
@@ -43,14 +44,6 @@ Torus.__doc__ = """A rigid torus, in 3D.
 
 axis: the direction across the ring.  radius: of the tube.  ring: radius of the circle in the middle of the
 tube.  hollow: the body is inside of the tube.
-"""
-
-Sector = namedtuple("Sector", "count point axis", defaults=[(0.0, 0.0, 1.0)])
-Sector.__doc__ = """One of count sectors of a body that repeats about an axis.
-
-count: number of sectors of the whole.  point: of the axis, (D,).  axis: its direction, (3,); in 2D not read. The second
-boundary is the first one turned about it, right-handed; its displacements are those of the first, turned, as
-sector_equations gives them.
 """
 
 RigidFaces = namedtuple("RigidFaces", "coordinates faces")

@@ -1,0 +1,100 @@
+"""A sector of a body that repeats about an axis: its boundaries, and the equations of their nodes."""
+
+from collections import namedtuple
+from itertools import product
+
+import numpy as np
+
+from ._arrays import fit, reals
+from ._equations import nodal_dofs, turned_equations
+from ._mesh import points
+
+_NEAR = 1e-6  # of the size of the mesh: places are the same
+_FACTORS = np.array([73856093, 19349663, 83492791])  # that different cells seldom have one key
+
+Sector = namedtuple("Sector", "count point axis", defaults=[(0.0, 0.0, 1.0)])
+Sector.__doc__ = """One of count sectors of a body that repeats about an axis.
+
+count: number of sectors of the whole.  point: of the axis, (D,).  axis: its direction, (3,); in 2D not read. The second
+boundary is the first one turned about it, right-handed; its displacements are those of the first, turned, as
+sector_equations gives them.
+"""
+
+
+def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
+    """Equations of the nodes on the second boundary of a Sector, u = turn @ u' of those on the first; and of nodes on its axis.
+
+    coordinates: of all nodes, (n, D).  bodies: a number for each node, (n,), that tells nodes of two bodies apart that
+    stand at one place; None: no two do.  dofs: of each node, (n, D); None: D * node + axis. Leave dofs of the second
+    boundary out of fixed, and put the loads of its nodes where they act.
+    """
+    coordinates = points(coordinates)
+    count, dim = coordinates.shape
+    dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else nodal_dofs("dofs", dofs)
+    axis = _axis(sector, dim)
+    second, first, on_axis = _boundaries(coordinates, sector, bodies)
+    if not second:
+        raise ValueError(f"no node is the image of another, turned by one of {sector.count} sectors about the axis: "
+                         "nodes of the two boundaries must match")
+    # A turn leaves the part along the axis.
+    kept = abs(axis).argmax()
+    found = [(int(dofs[node, c]), [int(dofs[node, kept])] * (dim - 2), [axis[c] / axis[kept]] * (dim - 2))
+             for node in on_axis for c in range(dim) if dim == 2 or c != kept]
+    return turned_equations(dofs[second], dofs[first], _turn(sector, dim)) + found
+
+
+def without_cuts(faces, coordinates, sector):
+    """The faces of a skin but for those in the two boundaries, which are no surface of the whole."""
+    second, first, on_axis = _boundaries(coordinates, sector, None)
+    boundaries = [set(nodes).union(on_axis) for nodes in (second, first)]
+    return [face for face in faces if not any(nodes.issuperset(face) for nodes in boundaries)]
+
+
+def _axis(sector, dim):
+    axis = np.array([0.0, 0.0, 1.0]) if dim == 2 else fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
+    if not 0 < np.linalg.norm(axis) < np.inf:
+        raise ValueError(f"axis of the Sector is {axis}: give its direction")
+    return axis / np.linalg.norm(axis)
+
+
+def _turn(sector, dim):
+    """The turn by one sector, by the formula of Rodrigues."""
+    angle, (x, y, z) = 2 * np.pi / sector.count, _axis(sector, dim)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return (np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)[:dim, :dim]
+
+
+def _boundaries(coordinates, sector, bodies):
+    """Nodes on the second boundary, those on the first whose images they are, and nodes on the axis."""
+    count, dim = coordinates.shape
+    point = fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}")
+    if not sector.count >= 2:
+        raise ValueError(f"count of a Sector is {sector.count}: give the number of sectors of the whole, at least 2")
+    bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
+    arms, near = coordinates - point, _NEAR * np.ptp(coordinates, axis=0).max()
+    images = arms @ _turn(sector, dim).T
+    own, others = (np.floor(x / (2 * near)).astype(np.int64) for x in (arms, images))
+    cells = {}
+    for node, cell in enumerate(map(tuple, own.tolist())):
+        cells.setdefault(cell, []).append(node)
+    # Few images are near a node: those in or beside a cell whose key a node's cell has.
+    keys = np.unique(own @ _FACTORS[:dim])
+    near_one = np.zeros(count, bool)
+    for step in product((-1, 0, 1), repeat=dim):
+        wanted = (others + step) @ _FACTORS[:dim]
+        near_one |= keys[np.searchsorted(keys, wanted) % len(keys)] == wanted
+    first_of, on_axis = {}, []
+    for node in map(int, np.flatnonzero(near_one)):
+        image = images[node]
+        if np.linalg.norm(image - arms[node]) <= near:
+            on_axis.append(node)
+            continue
+        around = product(*((cell - 1, cell, cell + 1) for cell in others[node].tolist()))
+        same = [other for cell in around for other in cells.get(cell, ())
+                if bodies[other] == bodies[node] and np.linalg.norm(arms[other] - image) <= near]
+        if len(same) > 1:
+            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
+                             "tells them apart")
+        if node not in first_of:  # of two sectors, each boundary is the image of the other
+            first_of.update((other, node) for other in same)
+    return list(first_of), list(first_of.values()), on_axis
