@@ -43,10 +43,13 @@ impl Images {
     }
 
     fn counted(&self, node: usize) -> (usize, i32) {
-        match node.checked_div(self.nodes) {
-            None | Some(0) => (node, 0),
-            Some(1) => (node - self.nodes, 1),
-            Some(_) => (node - 2 * self.nodes, -1),
+        let nodes = self.nodes;
+        if self.are_none() || node < nodes {
+            (node, 0)
+        } else if node < 2 * nodes {
+            (node - nodes, 1)
+        } else {
+            (node - 2 * nodes, -1)
         }
     }
 
