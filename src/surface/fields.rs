@@ -131,7 +131,8 @@ impl SurfacePairs {
             sums.insert(pair.slave, own);
         }
         // On a plane of symmetry what is across it cancels against the other side's.
-        for (node, sum) in sums.iter_mut().filter(|(node, _)| self.held.contains_key(node)) {
+        for node in self.held.keys() {
+            let Some(sum) = sums.get_mut(node) else { continue };
             let held = self.held(*node);
             [&mut sum.traction, &mut sum.slip].into_iter().for_each(|v| *v = without(*v, &held));
         }

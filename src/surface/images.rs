@@ -13,15 +13,15 @@ pub struct Images {
     sector: Option<Sector>,
     /// Number of nodes of the host.
     nodes: usize,
-    /// Nodes on the second boundary with those on the first whose images they are.
-    second: BTreeMap<usize, usize>,
+    /// Nodes on the second boundary, ascending, with those on the first whose images they are.
+    second: Vec<(usize, usize)>,
 }
 
 impl Images {
     /// Those of a sector, of so many nodes of the host, of which some are on the `second` boundary with those on the first
     /// whose images they are.
     pub(super) fn new(sector: Sector, nodes: usize, second: BTreeMap<usize, usize>) -> Images {
-        Images { sector: Some(sector), nodes, second }
+        Images { sector: Some(sector), nodes, second: second.into_iter().collect() }
     }
 
     /// `true` if there is no sector.
@@ -39,7 +39,7 @@ impl Images {
     /// turned.
     pub(super) fn home(&self, node: usize) -> (usize, i32) {
         let (node, by) = self.counted(node);
-        self.second.get(&node).map_or((node, by), |first| (*first, by + 1))
+        self.first_of(node).map_or((node, by), |first| (first, by + 1))
     }
 
     fn counted(&self, node: usize) -> (usize, i32) {
@@ -65,17 +65,23 @@ impl Images {
 
     /// `true` of a node that the sector has, and not its neighbour on the second boundary.
     pub(super) fn is_own(&self, node: usize) -> bool {
-        node < self.nodes && !self.second.contains_key(&node)
+        node < self.nodes && self.first_of(node).is_none()
+    }
+
+    /// The node on the first boundary whose image one on the second is.
+    fn first_of(&self, node: usize) -> Option<usize> {
+        let place = self.second.binary_search_by_key(&node, |(second, _)| *second);
+        place.ok().map(|place| self.second[place].1)
     }
 
     /// The nodes on the first boundary.
     pub(super) fn on_first(&self) -> BTreeSet<usize> {
-        self.second.values().copied().collect()
+        self.second.iter().map(|(_, first)| *first).collect()
     }
 
     /// The nodes on the second boundary, each with that on the first whose image it is.
     pub(super) fn on_second(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.second.iter().map(|(second, first)| (*second, *first))
+        self.second.iter().copied()
     }
 
     /// Takes in the images of another zone.
@@ -90,6 +96,8 @@ impl Images {
                 return Err(());
             }
             self.second.extend(&other.second);
+            self.second.sort_unstable();
+            self.second.dedup();
         }
         Ok(())
     }
