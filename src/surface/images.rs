@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::sector::Sector;
 use crate::linalg::vector3::{Matrix3, Vector3};
 
-/// The images of a host's nodes in the neighbours of a sector. Of `n` nodes, the image of node `i` beyond the second boundary
-/// is counted as `n + i` and that before the first one as `2 n + i`.
+/// The images of a host's nodes in the neighbours of a sector. Of `n` nodes, the image of node `i` in the neighbour beyond the
+/// second boundary is counted as `n + i`, that before the first one as `2 n + i`, those in the next but one as `3 n + i` and
+/// `4 n + i`, and so on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
     /// `None`: there are no images.
@@ -17,7 +18,16 @@ pub struct Images {
     second: Vec<(usize, usize)>,
 }
 
+/// The neighbours by whose places images are counted, in sectors.
+const PLACES: [i32; 9] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
+
 impl Images {
+    /// The number of the image of a node, of so many, in a neighbour.
+    pub(super) fn number(node: usize, nodes: usize, by: i32) -> usize {
+        let place = PLACES.iter().position(|place| *place == by).unwrap_or_default();
+        node + place * nodes
+    }
+
     /// Those of a sector, of so many nodes of the host, of which some are on the `second` boundary with those on the first
     /// whose images they are.
     pub(super) fn new(sector: Sector, nodes: usize, second: BTreeMap<usize, usize>) -> Images {
@@ -43,14 +53,10 @@ impl Images {
     }
 
     fn counted(&self, node: usize) -> (usize, i32) {
-        let nodes = self.nodes;
-        if self.are_none() || node < nodes {
-            (node, 0)
-        } else if node < 2 * nodes {
-            (node - nodes, 1)
-        } else {
-            (node - 2 * nodes, -1)
+        if self.are_none() || node < self.nodes {
+            return (node, 0);
         }
+        (node % self.nodes, PLACES[node / self.nodes])
     }
 
     /// The turn by some sectors.

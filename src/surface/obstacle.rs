@@ -48,7 +48,7 @@ pub(super) fn pairs(
     let found = match sector {
         None => facing(&side, &obstacle, settings, watch)?,
         Some(sector) => {
-            let (images, [all, _]) = with_images(sector, [&side; 2], watch)?;
+            let (images, [all, _]) = with_images((sector, &settings.shapes), [&side; 2], watch)?;
             own_pairs(facing(&all.on(&side), &obstacle, settings, watch)?, images, side.count())
         }
     };

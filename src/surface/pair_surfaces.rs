@@ -72,7 +72,8 @@ fn pair_sides(
     let found = match settings.sector {
         None => search([&slave, &master], settings, watch)?,
         Some(sector) => {
-            let (images, sides) = with_images(sector, [&slave, &master], watch)?;
+            let (images, sides) =
+                with_images((sector, &settings.shapes), [&slave, &master], watch)?;
             let sides = [sides[0].on(&slave), sides[1].on(&master)];
             own_pairs(search(sides.each_ref(), settings, watch)?, images, slave.count())
         }

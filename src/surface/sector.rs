@@ -63,8 +63,16 @@ impl Sector {
         move |x| point + turn * (x - point)
     }
 
-    /// How far the neighbours are away, in sectors. One of two sectors has one neighbour.
-    pub(super) fn neighbours(&self) -> &'static [i32] {
-        if self.count == 2 { &[1] } else { &[1, -1] }
+    /// How far the neighbours are away, in sectors, the next ones first; up to `most` on both sides, each once.
+    pub(super) fn neighbours(&self, most: i32) -> Vec<i32> {
+        let count = self.count as i32;
+        let mut found: Vec<i32> = Vec::new();
+        for by in (1..=most).flat_map(|by| [by, -by]) {
+            let is_new = |other: &i32| (by - other) % count != 0;
+            if by % count != 0 && found.iter().all(is_new) {
+                found.push(by);
+            }
+        }
+        found
     }
 }

@@ -13,6 +13,7 @@ use super::mesh::Side;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::sector::Sector;
+use super::settings::TrueShape;
 use super::surfaces::Faces;
 use super::sweep::Sweep;
 use super::watch::Watch;
@@ -27,8 +28,12 @@ pub(super) struct WithImages {
 }
 
 impl WithImages {
-    /// A side with its images in the neighbours, and its nodes on the second boundary.
-    fn new(side: &Side<'_>, sector: &Sector, second: &BTreeMap<usize, usize>) -> WithImages {
+    /// A side with its images in the neighbours up to `most` sectors away, of which some nodes are on the `second` boundary.
+    fn new(
+        side: &Side<'_>,
+        (sector, most): (&Sector, i32),
+        second: &BTreeMap<usize, usize>,
+    ) -> WithImages {
         let (dim, count) = (side.dim, side.coordinates.len() / side.dim);
         let first: BTreeMap<usize, usize> =
             second.iter().map(|(second, first)| (*first, *second)).collect();
@@ -38,19 +43,27 @@ impl WithImages {
             start: start.to_vec(),
             nodes: nodes.to_vec(),
         };
-        for (k, &by) in sector.neighbours().iter().enumerate() {
-            let (image, end) = (sector.image(by), all.coordinates.len());
-            all.coordinates.resize(end + side.coordinates.len(), 0.0);
+        let neighbours = sector.neighbours(most);
+        for &by in &neighbours {
+            let (image, place) = (sector.image(by), dim * Images::number(0, count, by));
+            let end = place + side.coordinates.len();
+            all.coordinates.resize(end.max(all.coordinates.len()), 0.0);
             for node in side.all_nodes() {
                 let x = image(vector(&side.coordinates[dim * node..][..dim]));
-                all.coordinates[end + dim * node..][..dim].copy_from_slice(&x.as_slice()[..dim]);
+                all.coordinates[place + dim * node..][..dim].copy_from_slice(&x.as_slice()[..dim]);
             }
-            // Beyond the second boundary the images of nodes on the first are those on the second.
-            let ahead = |node: &usize| first.get(node).filter(|_| by > 0);
-            let behind = |node: &usize| second.get(node).filter(|_| by < 0 || sector.count == 2);
-            let image = |node: &usize| ahead(node).or_else(|| behind(node)).copied();
-            let number = |node: &usize| image(node).unwrap_or((k + 1) * count + node);
-            all.start.extend(start[1..].iter().map(|end| (k + 1) * nodes.len() + end));
+            // Ahead, images of nodes on the first boundary are those on the second of the sector before; behind, those on the
+            // second are those on the first of the sector after, and so around.
+            let after = if by < 0 { by + 1 } else { by + 1 - sector.count as i32 };
+            let closes = after == 0 || neighbours.contains(&after);
+            let number = |node: &usize| {
+                let ahead = first.get(node).filter(|_| by > 0).map(|second| (second, by - 1));
+                let behind = || second.get(node).filter(|_| closes).map(|first| (first, after));
+                let (node, by) = ahead.or_else(behind).unwrap_or((node, by));
+                Images::number(*node, count, by)
+            };
+            let before = all.nodes.len();
+            all.start.extend(start[1..].iter().map(|end| before + end));
             all.nodes.extend(nodes.iter().map(number));
         }
         all
@@ -63,22 +76,25 @@ impl WithImages {
 }
 
 /// The images of two sides of one mesh, or of a side and of one of another mesh, which has none of its own; and both sides
-/// with them.
+/// with them. Slaves on a boundary have faces in the next sector, and these may have masters in the next but one; fitted normals
+/// look two faces further.
 ///
 /// # Errors
 /// A sector that is none; a side with two nodes at one place of its boundary; a slave side whose boundaries do not match;
 /// what ends the watch.
 pub(super) fn with_images(
-    sector: Sector,
+    (sector, shapes): (Sector, &[TrueShape; 2]),
     [slave, master]: [&Side<'_>; 2],
     watch: &mut Watch<'_, '_>,
 ) -> Result<(Images, [WithImages; 2]), Error> {
     let sector = &sector.checked(slave.dim)?;
+    let is_fitted = shapes.contains(&TrueShape::Fitted);
+    let [own, others] = if is_fitted { [2, 4] } else { [1, 2] };
     let mut second = second_boundary(sector, slave, watch)?;
     let opposite = second_boundary(sector, master, watch)?;
     check_boundaries(slave, (sector, &second), watch)?;
-    let sides =
-        [WithImages::new(slave, sector, &second), WithImages::new(master, sector, &opposite)];
+    let sides = [(slave, own, &second), (master, others, &opposite)];
+    let sides = sides.map(|(side, most, second)| WithImages::new(side, (sector, most), second));
     if !master.is_rigid() {
         second.extend(opposite);
     }
@@ -179,7 +195,7 @@ fn check_boundaries(
         .into_iter()
         .filter(|node| !first.contains(node) && !second.contains_key(node));
     for node in inner {
-        for &by in sector.neighbours() {
+        for by in sector.neighbours(1) {
             watch.goes_on()?;
             let x = slave.position(node);
             let image = slave.scale * sector.image(by)(x / slave.scale);

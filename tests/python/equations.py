@@ -133,12 +133,12 @@ class Rows(unittest.TestCase):
 
 
 class Sectors(unittest.TestCase):
-    """A ring of 3 and a hub of 4 faces a sector, shifted, every node on springs that are alike in all directions."""
+    """A ring and a hub of a few faces a sector, shifted, every node on springs that are alike in all directions."""
 
-    def ring(self, sectors, whole, nodes):
+    def ring(self, sectors, whole, nodes, counts=(3, 4)):
         """Places, faces of ring and hub, and of each node the share of its springs that is here."""
         places, faces, shares = [], [], []
-        for start, count, turns_back in ((0.0, 3, True), (0.1, 4, False)):
+        for start, count, turns_back in zip((0.0, 0.1), counts, (True, False)):
             steps = (sectors if whole else 1) * count * (nodes - 1)
             points = steps if whole else steps + 1
             angles = start + 2 * np.pi / (sectors * count * (nodes - 1)) * np.arange(points)
@@ -154,11 +154,13 @@ class Sectors(unittest.TestCase):
         return np.concatenate(places), faces, np.concatenate(shares), len(places[0])
 
     def test_a_sector_of_a_ring_is_the_whole(self):
-        for sectors, nodes in ((5, 2), (5, 3), (2, 3), (3, 2)):
+        # With one face a sector masters of the next but one count, and for fitted curves those beyond.
+        for sectors, nodes, counts, fitted in ((5, 2, (3, 4), False), (5, 3, (3, 4), False), (2, 3, (3, 4), False),
+                                               (3, 2, (3, 4), False), (12, 3, (1, 1), False), (12, 2, (1, 2), True)):
             turn = 2 * np.pi / sectors
             found = []
             for whole in (True, False):
-                places, (ring, hub), shares, first = self.ring(sectors, whole, nodes)
+                places, (ring, hub), shares, first = self.ring(sectors, whole, nodes, counts)
                 angles = np.arctan2(places[:, 1], places[:, 0])
                 # Loads that repeat in each sector: the ring is pressed and dragged.
                 along = (1 + 0.8 * np.cos(sectors * angles) + 0.3 * np.sin(sectors * angles))[:, None]
@@ -168,7 +170,7 @@ class Sectors(unittest.TestCase):
                 sector = None if whole else signorini.Sector(sectors, (0.0, 0.0))
                 bodies = np.arange(len(places)) >= first
                 equations = None if whole else signorini.sector_equations(places, sector, bodies=1 * bodies)
-                contact = signorini.pair_surfaces(places, ring, hub, sector=sector, search_distance=0.5)
+                contact = signorini.pair_surfaces(places, ring, hub, sector=sector, search_distance=0.5, fitted=fitted)
                 size, springs = places.size, 10.0 * np.repeat(shares, 2)
                 K = springs, np.arange(size), np.arange(size + 1)
                 model = signorini.Model.from_surfaces(K, contact, equations=equations)
