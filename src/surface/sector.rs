@@ -53,7 +53,8 @@ impl Sector {
 
     /// The turn by some sectors.
     pub(super) fn turn(&self, by: i32) -> Matrix3 {
-        let angle = f64::from(by) * TAU / self.count as f64;
+        // Numbers of 32 bits become doubles without a branch, which compilers take out of loops of models without a sector.
+        let angle = f64::from(by) * TAU / f64::from(self.count as u32);
         turn_about(self.axis(), angle)
     }
 
