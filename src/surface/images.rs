@@ -10,8 +10,8 @@ use crate::linalg::vector3::{Matrix3, Vector3};
 /// `4 n + i`, and so on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
-    /// `None`: there are no images.
-    sector: Option<Sector>,
+    /// Of no sectors: there are no images.
+    sector: Sector,
     /// Number of nodes of the host.
     nodes: usize,
     /// Nodes on the second boundary, ascending, with those on the first whose images they are.
@@ -31,12 +31,12 @@ impl Images {
     /// Those of a sector, of so many nodes of the host, of which some are on the `second` boundary with those on the first
     /// whose images they are.
     pub(super) fn new(sector: Sector, nodes: usize, second: BTreeMap<usize, usize>) -> Images {
-        Images { sector: Some(sector), nodes, second: second.into_iter().collect() }
+        Images { sector, nodes, second: second.into_iter().collect() }
     }
 
     /// `true` if there is no sector.
     pub fn are_none(&self) -> bool {
-        self.sector.is_none()
+        self.sector.count == 0
     }
 
     /// The host's node that a node is or is an image of, and the turn of its displacement.
@@ -61,12 +61,12 @@ impl Images {
 
     /// The turn by some sectors.
     pub(super) fn turn(&self, by: i32) -> Matrix3 {
-        self.sector.filter(|_| by != 0).map_or_else(Matrix3::identity, |sector| sector.turn(by))
+        if by == 0 { Matrix3::identity() } else { self.sector.turn(by) }
     }
 
     /// The place of the image of a point.
     pub(super) fn image(&self, x: Vector3, by: i32) -> Vector3 {
-        self.sector.filter(|_| by != 0).map_or(x, |sector| sector.image(by)(x))
+        if by == 0 { x } else { self.sector.image(by)(x) }
     }
 
     /// `true` of a node that the sector has, and not its neighbour on the second boundary.

@@ -6,7 +6,7 @@ use crate::error::{Argument, Error};
 use crate::linalg::vector3::{self, Matrix3, Vector3, turn_about, unit, vector};
 
 /// A sector of a body that consists of such sectors, each turned against the one before.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sector {
     /// A point of the axis; length.
     pub point: [f64; 3],
@@ -53,8 +53,7 @@ impl Sector {
 
     /// The turn by some sectors.
     pub(super) fn turn(&self, by: i32) -> Matrix3 {
-        // Numbers of 32 bits become doubles without a branch, which compilers take out of loops of models without a sector.
-        let angle = f64::from(by) * TAU / f64::from(self.count as u32);
+        let angle = f64::from(by) * TAU / self.count as f64;
         turn_about(self.axis(), angle)
     }
 
