@@ -38,11 +38,11 @@ impl<'p> Motions<'p> {
         for (k, pair) in self.pairs.iter().enumerate() {
             let of_pair = self.found.held(pair.slave);
             for &(node, weight) in pair.slaves() {
-                let (node, by) = images.home(node);
+                let (node, motion) = images.home(node);
                 let place = self.nodes.partition_point(|other| *other < node);
                 let held = self.found.held(node);
                 for axis in 0..dim {
-                    let moved = images.turn(by) * without(vector3::axis(axis), &held);
+                    let moved = motion.turn * without(vector3::axis(axis), &held);
                     let seen = weight * without(moved, &of_pair);
                     let seen = seen.iter().take(dim).enumerate().filter(|(_, part)| **part != 0.0);
                     entries.extend(seen.map(|(c, part)| (dim * place + axis, dim * k + c, *part)));
@@ -124,7 +124,7 @@ impl SurfacePairs {
         }
         for (second, first) in images.on_second() {
             if let Ok(place) = motions.nodes.binary_search(&first) {
-                let moved = images.turn(1) * vector(&moves[dim * place..][..dim]);
+                let moved = images.to_second().turn * vector(&moves[dim * place..][..dim]);
                 coordinates[dim * second..][..dim]
                     .iter_mut()
                     .zip(&moved)
@@ -139,9 +139,9 @@ impl SurfacePairs {
             return -pair.measured_gap * Vector3::from(pair.normal);
         }
         let place = |&(node, weight): &Weight| {
-            let (node, by) = self.images.home(node);
+            let (node, motion) = self.images.home(node);
             let x = vector(&coordinates[self.dim * node..][..self.dim]);
-            weight * self.images.image(x, by)
+            weight * motion.of(x)
         };
         let [slave, master] =
             [pair.slaves(), pair.masters()].map(|nodes| nodes.iter().map(place).sum::<Vector3>());

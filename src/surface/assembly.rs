@@ -14,17 +14,14 @@ use crate::linalg::vector3::Vector3;
 
 /// The pair of a slave node and its row, in the planes of symmetry on which the node stands. The gap is that between the
 /// points of both sides, and 0 without masters.
-///
-/// # Errors
-/// A normal across a plane of symmetry.
 pub(super) fn pair_of_row(
     [slave, master]: [&Side<'_>; 2],
     planes: &OnPlanes,
     (node, row): (usize, Row),
     normal: Vector3,
-) -> Result<SurfacePair, Error> {
+) -> SurfacePair {
     let (area, normal) = (row.area, planes.turned(node, normal));
-    let held = planes.held(node, normal)?;
+    let held = planes.held(node);
     // A frame has a tangent along a direction that is held.
     let tangents = match held {
         [across] if slave.dim == 3 && across.abs().max() < 1.0 => [across.cross(&normal), *across],
@@ -40,7 +37,7 @@ pub(super) fn pair_of_row(
             without_rounding(normal.dot(&(opposite - point)), size)
         }
     };
-    Ok(SurfacePair {
+    SurfacePair {
         slave: node,
         nodes,
         slave_count,
@@ -50,7 +47,7 @@ pub(super) fn pair_of_row(
         gap,
         measured_gap: gap,
         area,
-    })
+    }
 }
 
 /// The pairs of rows; slave nodes without a row are unpaired. The number of slave faces and the covered area are added to
@@ -80,7 +77,7 @@ pub(super) fn pairs_of_rows(
 }
 
 /// The slave's part of the rows all of whose slave nodes meet something, as if every face were covered wholly. The area of
-/// all rows is added to the report.
+/// the host's faces is added to the report.
 ///
 /// # Errors
 /// What ends the watch.
@@ -97,13 +94,13 @@ pub(super) fn whole_rows(
         edges.add(face.kind, face.nodes, !planes.touch_axis(&face));
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for face in faces() {
+    for (at, face) in faces().enumerate() {
         watch.goes_on()?;
         let basis = edges.basis(face.kind, face.nodes, true);
         let (on, integrals) = ((face.nodes, &basis), [face.integrals(); 2]);
+        report.slave_area += side.own_area(at, integrals[0]);
         add_face(&mut rows, on, integrals, std::iter::empty(), Default::default());
     }
-    report.slave_area = rows.values().map(|row| row.area).sum();
     rows.retain(|_, row| row.slaves().all(|(node, _)| meets(node)));
     Ok(rows)
 }

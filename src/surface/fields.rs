@@ -116,11 +116,8 @@ impl SurfacePairs {
                 for &(node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
                     let share = pair.area * weight.abs();
                     // An image is not there, but its node is.
-                    let (node, by) = self.images.home(node);
-                    let values = match by {
-                        0 => of_pairs[j],
-                        _ => of_pairs[j].turned(&self.images.turn(-by)),
-                    };
+                    let (node, motion) = self.images.home(node);
+                    let values = of_pairs[j].turned(&motion.turn.transpose());
                     sums.entry(node).or_default().add(&values, (j, share), sign);
                 }
             }
@@ -137,7 +134,7 @@ impl SurfacePairs {
             [&mut sum.traction, &mut sum.slip].into_iter().for_each(|v| *v = without(*v, &held));
         }
         for (second, first) in self.images.on_second() {
-            let image = sums.get(&first).map(|sum| sum.turned(&self.images.turn(1)));
+            let image = sums.get(&first).map(|sum| sum.turned(&self.images.to_second().turn));
             sums.extend(image.map(|image| (second, image)));
         }
         let mut fields = NodalFields::default();

@@ -5,7 +5,8 @@
 //! quadric by least squares through the node, over the faces around it and, of linear ones or if they have few nodes, those
 //! around these, in the frame of the normal, twice. Products with the height make it exact on spheres, cylinders and cones;
 //! faces with mid nodes, which are near their shape as they are, have that of the height with itself alone. Neither looks
-//! across an edge at which faces turn sharply. At planes of symmetry the mirror images of nodes count as in the whole body.
+//! across an edge at which faces turn sharply. Images beyond planes of symmetry and boundaries of sectors
+//! count as in the whole body.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -14,8 +15,6 @@ use super::mesh::Side;
 use super::normals::direction;
 use super::plane;
 use super::shape::MOST_NODES;
-use super::symmetry::Reflected;
-use super::symmetry_plane::SymmetryPlane;
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::least_squares::least_squares;
@@ -37,17 +36,7 @@ pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
 
 /// # Errors
 /// What ends the watch.
-pub(super) fn fitted(
-    side: &Side<'_>,
-    planes: &[SymmetryPlane],
-    watch: &mut Watch<'_, '_>,
-) -> Result<Fitted, Error> {
-    if let Some((first, others)) = planes.split_first() {
-        let whole = Reflected::new(side, *first);
-        let mut normals = fitted(&whole.on(side), others, watch)?;
-        normals.truncate(side.count());
-        return Ok(normals);
-    }
+pub(super) fn fitted(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
     if side.dim == 2 { on_lines(side, watch) } else { on_faces(side, watch) }
 }
 

@@ -1,77 +1,123 @@
-//! The images of nodes in the neighbours of a sector. An image is a node of the sector, turned: `u = Q u'`.
+//! The images of nodes in the parts of the body beyond the model: in the neighbours of a sector, and beyond planes of
+//! symmetry. An image is a node of the model, moved: `u = Q u'`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
+use super::motion::Motion;
 use super::sector::Sector;
 use crate::linalg::vector3::{Matrix3, Vector3};
 
-/// The images of a host's nodes in the neighbours of a sector. Of `n` nodes, the image of node `i` in the neighbour beyond the
-/// second boundary is counted as `n + i`, that before the first one as `2 n + i`, those in the next but one as `3 n + i` and
-/// `4 n + i`, and so on.
+/// The images of a host's nodes, counted behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
-    /// Of no sectors: there are no images.
+    /// None if its count is 0.
     sector: Sector,
     /// Number of nodes of the host.
     nodes: usize,
+    /// The motions of images; the first is none.
+    places: Vec<Motion>,
+    /// Each image: the place of its motion, and its node.
+    list: Vec<(usize, usize)>,
     /// Nodes on the second boundary, ascending, with those on the first whose images they are.
     second: Vec<(usize, usize)>,
 }
 
-/// The neighbours by whose places images are counted, in sectors.
-const PLACES: [i32; 9] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
-
 impl Images {
-    /// The number of the image of a node, of so many, in a neighbour.
-    pub(super) fn number(node: usize, nodes: usize, by: i32) -> usize {
-        let place = PLACES.iter().position(|place| *place == by).unwrap_or_default();
-        node + place * nodes
+    /// Those of so many nodes of the host, none so far.
+    pub(super) fn new(sector: Option<Sector>, nodes: usize) -> Images {
+        let (sector, places) = (sector.unwrap_or_default(), vec![Motion::none()]);
+        Images { sector, nodes, places, ..Images::default() }
     }
 
-    /// Those of a sector, of so many nodes of the host, of which some are on the `second` boundary with those on the first
-    /// whose images they are.
-    pub(super) fn new(sector: Sector, nodes: usize, second: BTreeMap<usize, usize>) -> Images {
-        Images { sector, nodes, second: second.into_iter().collect() }
+    /// The sector, if there is one.
+    pub(super) fn sector(&self) -> Option<Sector> {
+        self.are_of_sector().then_some(self.sector)
     }
 
-    /// `true` if there is no sector.
-    pub fn are_none(&self) -> bool {
-        self.sector.count == 0
+    /// Adds a node on the second boundary, with that on the first whose image it is.
+    pub(super) fn add_second(&mut self, second: usize, first: usize) {
+        let place = self.second.partition_point(|(other, _)| *other < second);
+        self.second.insert(place, (second, first));
     }
 
-    /// The host's node that a node is or is an image of, and the turn of its displacement.
+    /// `true` in a sector.
+    pub(super) fn are_of_sector(&self) -> bool {
+        self.sector.count > 0
+    }
+
+    /// `true` of an image: the host has no such node.
+    pub fn has(&self, node: usize) -> bool {
+        !self.list.is_empty() && node >= self.nodes
+    }
+
+    /// The host's node that a node is or is an image of, and the turn or mirror of its displacement.
     pub fn of(&self, node: usize) -> (usize, Matrix3) {
-        let (node, by) = self.counted(node);
-        (node, self.turn(by))
+        let (place, node) = self.at(node);
+        (node, self.motion(place).turn)
     }
 
-    /// The same for a node on the second boundary too, which is an image of one on the first; and by how many sectors it is
-    /// turned.
-    pub(super) fn home(&self, node: usize) -> (usize, i32) {
-        let (node, by) = self.counted(node);
-        self.first_of(node).map_or((node, by), |first| (first, by + 1))
+    /// The same for a node on the second boundary too, which is an image of one on the first; and its motion.
+    pub(super) fn home(&self, node: usize) -> (usize, Motion) {
+        let (place, node) = self.at(node);
+        let motion = self.motion(place);
+        let of_first = |first| (first, motion.after(&self.sector.motion(1)));
+        self.first_of(node).map_or((node, motion), of_first)
     }
 
-    fn counted(&self, node: usize) -> (usize, i32) {
-        if self.are_none() || node < self.nodes {
-            return (node, 0);
-        }
-        (node % self.nodes, PLACES[node / self.nodes])
+    /// The place of the motion and the node of an image; of other nodes themselves.
+    pub(super) fn at(&self, node: usize) -> (usize, usize) {
+        if self.has(node) { self.list[node - self.nodes] } else { (0, node) }
     }
 
-    /// The turn by some sectors.
-    pub(super) fn turn(&self, by: i32) -> Matrix3 {
-        if by == 0 { Matrix3::identity() } else { self.sector.turn(by) }
+    /// The motion at a place.
+    pub(super) fn motion(&self, place: usize) -> Motion {
+        self.places.get(place).copied().unwrap_or_else(Motion::none)
     }
 
-    /// The place of the image of a point.
-    pub(super) fn image(&self, x: Vector3, by: i32) -> Vector3 {
-        if by == 0 { x } else { self.sector.image(by)(x) }
+    /// The boundaries of the sector alone, where no row has an image.
+    pub(super) fn without_images(self) -> Images {
+        Images { sector: self.sector, second: self.second, ..Images::default() }
     }
 
-    /// `true` of a node that the sector has, and not its neighbour on the second boundary.
+    /// The numbers of all images.
+    pub(super) fn numbers(&self) -> Range<usize> {
+        self.nodes..self.nodes + self.list.len()
+    }
+
+    /// The motions, by place.
+    pub(super) fn motions(&self) -> &[Motion] {
+        &self.places
+    }
+
+    /// Adds a motion, and returns its place.
+    pub(super) fn add_motion(&mut self, motion: Motion) -> usize {
+        self.places.push(motion);
+        self.places.len() - 1
+    }
+
+    /// Adds the image of a node by the motion at a place, and returns its number.
+    pub(super) fn add(&mut self, image: (usize, usize)) -> usize {
+        self.list.push(image);
+        self.nodes + self.list.len() - 1
+    }
+
+    /// The places of all images by the host's coordinates, as vectors.
+    pub(super) fn positions<'a>(
+        &'a self,
+        of_host: impl Fn(usize) -> Vector3 + 'a,
+    ) -> impl Iterator<Item = Vector3> + 'a {
+        self.list.iter().map(move |(place, node)| self.places[*place].of(of_host(*node)))
+    }
+
+    /// From the first boundary to the second.
+    pub(super) fn to_second(&self) -> Motion {
+        self.sector.motion(1)
+    }
+
+    /// `true` of a node that the model has, and not its neighbour on the second boundary.
     pub(super) fn is_own(&self, node: usize) -> bool {
-        node < self.nodes && self.first_of(node).is_none()
+        !self.has(node) && self.first_of(node).is_none()
     }
 
     /// The node on the first boundary whose image one on the second is.
@@ -90,21 +136,35 @@ impl Images {
         self.second.iter().copied()
     }
 
-    /// Takes in the images of another zone.
+    /// Takes in the images of another zone of the same host, and returns the numbers that they have here, in their order.
     ///
     /// # Errors
-    /// They are those of another sector.
-    pub(super) fn join(&mut self, other: &Images) -> Result<(), ()> {
-        if self.are_none() {
-            *self = other.clone();
-        } else if !other.are_none() {
-            if (self.sector, self.nodes) != (other.sector, other.nodes) {
-                return Err(());
-            }
-            self.second.extend(&other.second);
-            self.second.sort_unstable();
-            self.second.dedup();
+    /// They are those of another sector, or of a host with another number of nodes.
+    pub(super) fn join(&mut self, other: &Images) -> Result<Vec<usize>, ()> {
+        let is_other_sector =
+            self.are_of_sector() && other.are_of_sector() && self.sector != other.sector;
+        let is_other_host =
+            !self.list.is_empty() && !other.list.is_empty() && self.nodes != other.nodes;
+        if is_other_sector || is_other_host {
+            return Err(());
         }
-        Ok(())
+        if other.are_of_sector() {
+            self.sector = other.sector;
+        }
+        if self.list.is_empty() {
+            // A zone without images has not counted the nodes.
+            (self.nodes, self.places) = (other.nodes, other.places.clone());
+        }
+        self.second.extend(&other.second);
+        self.second.sort_unstable();
+        self.second.dedup();
+        let mut known: HashMap<_, _> = (self.list.iter().copied()).zip(self.nodes..).collect();
+        let numbers = other.list.iter().map(|&(place, node)| {
+            let motion = other.places[place];
+            let same = self.places.iter().position(|known| *known == motion);
+            let image = (same.unwrap_or_else(|| self.add_motion(motion)), node);
+            *known.entry(image).or_insert_with(|| self.add(image))
+        });
+        Ok(numbers.collect())
     }
 }

@@ -1,34 +1,30 @@
-//! A side of the pairing, and what is refused: faces for their shape, and neighbours of which one is turned over.
-
-use std::collections::HashMap;
+//! A side of the pairing.
 
 use super::face::Face;
 use super::pairs::Weight;
-use super::shape::{FaceKind, MOST_NODES};
+use super::shape::{FaceKind, MOST_NODES, Values};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use super::watch::Watch;
-use crate::error::{Argument, Error, entry, index};
+use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, vector};
 
 /// A node is on a plane if it is nearer than this part of the size of its side: ten times the error of
 /// coordinates with seven digits.
 pub(super) const ON_PLANE: f64 = 1e-6;
 
-/// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
-/// is a corner of a ten-thousandth of a degree, far below what a mesh for computations has.
-const LEAST_AREA: f64 = 1e-10;
-
 /// One of the two sides, checked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
-    name: &'static str,
-    argument: Argument,
+    pub(super) name: &'static str,
+    pub(super) argument: Argument,
     pub(super) dim: usize,
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
-    /// Number of faces that the host has; others behind them are images of theirs.
+    /// Number of faces that the host has.
     own: usize,
+    /// Behind these faces are images of some of them.
+    origins: &'a [usize],
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,
@@ -53,6 +49,11 @@ impl<'a> Side<'a> {
     /// Place of a node, in the unit of the pairing.
     pub(super) fn position(&self, node: usize) -> Vector3 {
         self.scale * vector(&self.coordinates[self.dim * node..self.dim * (node + 1)])
+    }
+
+    /// Place of a node, in the host's unit.
+    pub(super) fn of_host(&self, node: usize) -> Vector3 {
+        self.position(node) / self.scale
     }
 
     /// The host's coordinates of all nodes of faces.
@@ -84,22 +85,35 @@ impl<'a> Side<'a> {
         nodes
     }
 
+    /// A box around all nodes.
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::of(self.faces.nodes.iter().map(|&node| self.position(node)))
+    }
+
+    /// The size of its largest face.
+    pub(super) fn largest_face(&self) -> f64 {
+        (0..self.count()).map(|face| self.face(face).size()).fold(0.0, f64::max)
+    }
+
     /// Places of nodes that are nearer than this to each other, or to a plane, are the same.
     pub(super) fn nearness(&self) -> f64 {
-        let nodes = self.faces.nodes.iter();
-        let Bounds { low, high } = Bounds::of(nodes.map(|&node| self.position(node)));
+        let Bounds { low, high } = self.bounds();
         ON_PLANE * (high - low).amax()
     }
 
-    /// The largest distance of a node from the mean of all of them: half the diagonal of a rectangle, however it is turned.
-    pub(super) fn radius(&self) -> f64 {
+    /// The mean of the places of its nodes.
+    pub(super) fn mean(&self) -> Vector3 {
         let nodes = self.all_nodes();
-        let places = || nodes.iter().map(|&node| self.position(node));
-        let mean = places().sum::<Vector3>() / nodes.len() as f64;
-        places().map(|x| (x - mean).norm()).fold(0.0, f64::max)
+        nodes.iter().map(|&node| self.position(node)).sum::<Vector3>() / nodes.len() as f64
     }
 
-    fn nodes(&self, face: usize) -> &'a [usize] {
+    /// The largest distance of a node from a point: from the mean half the diagonal of a rectangle, however it is turned.
+    pub(super) fn radius(&self, from: Vector3) -> f64 {
+        let nodes = self.faces.nodes.iter();
+        nodes.map(|&node| (self.position(node) - from).norm()).fold(0.0, f64::max)
+    }
+
+    pub(super) fn nodes(&self, face: usize) -> &'a [usize] {
         &self.faces.nodes[self.faces.start[face]..self.faces.start[face + 1]]
     }
 
@@ -110,7 +124,7 @@ impl<'a> Side<'a> {
     }
 
     /// The kind of a face with these nodes.
-    fn kind(&self, nodes: &[usize]) -> FaceKind {
+    pub(super) fn kind(&self, nodes: &[usize]) -> FaceKind {
         FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked")
     }
 
@@ -128,10 +142,15 @@ impl<'a> Side<'a> {
         face >= self.own
     }
 
+    /// The area of a face with such integrals of shape functions, if the host has it.
+    pub(super) fn own_area(&self, face: usize, integrals: Values) -> f64 {
+        if self.is_image(face) { 0.0 } else { integrals.iter().sum() }
+    }
+
     /// The number of a face for a message.
     pub(super) fn named(&self, face: usize) -> String {
         if self.is_image(face) {
-            return format!("{} of a neighbouring sector", index(face % self.own));
+            return format!("{} (turned or mirrored)", index(self.origins[face - self.own]));
         }
         index(face)
     }
@@ -149,7 +168,9 @@ impl<'a> Side<'a> {
         faces: Faces<'a>,
     ) -> Result<Side<'a>, Error> {
         let (own, is_axisymmetric, scale) = (faces.start.len().saturating_sub(1), false, 1.0);
-        let side = Side { name, argument, dim, coordinates, faces, own, is_axisymmetric, scale };
+        let origins = &[];
+        let side =
+            Side { name, argument, dim, coordinates, faces, own, origins, is_axisymmetric, scale };
         if !coordinates.len().is_multiple_of(dim) {
             let message =
                 format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
@@ -180,13 +201,18 @@ impl<'a> Side<'a> {
         Ok(side)
     }
 
-    /// The side with other nodes and faces, behind its own those of images.
-    pub(super) fn with(self, coordinates: &'a [f64], faces: Faces<'a>) -> Side<'a> {
-        Side { coordinates, faces, ..self }
+    /// The side with other nodes and faces, behind its own the images of some of these.
+    pub(super) fn with(
+        self,
+        coordinates: &'a [f64],
+        faces: Faces<'a>,
+        origins: &'a [usize],
+    ) -> Side<'a> {
+        Side { coordinates, faces, origins, ..self }
     }
 
     /// The argument that the coordinates are part of.
-    fn of_coordinates(&self) -> Argument {
+    pub(super) fn of_coordinates(&self) -> Argument {
         match self.argument {
             Argument::Obstacle => Argument::Obstacle,
             _ => Argument::Coordinates,
@@ -196,131 +222,5 @@ impl<'a> Side<'a> {
     /// Sum of places of nodes by their weights.
     pub(super) fn point(&self, weights: &[Weight]) -> Vector3 {
         weights.iter().map(|&(node, weight)| weight * self.position(node)).sum()
-    }
-
-    fn check_lists(&self) -> Result<(), Error> {
-        self.check_start()?;
-        (0..self.count()).try_for_each(|face| self.check_nodes(face))
-    }
-
-    fn check_start(&self) -> Result<(), Error> {
-        let refuse = |message: String| {
-            Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
-        };
-        let (start, nodes) = (self.faces.start, self.faces.nodes.len());
-        match start {
-            [] => return refuse("start is empty, it needs one entry more than faces".into()),
-            [first, ..] if *first != 0 => {
-                return refuse(format!("{} is {first}, it must be 0", entry("start", [0])));
-            }
-            _ => {}
-        }
-        if let Some(face) = start.windows(2).position(|ends| ends[0] > ends[1]) {
-            let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
-            return refuse(format!("{next} is less than {here}, start must not descend"));
-        }
-        if start[start.len() - 1] != nodes {
-            let last = start[start.len() - 1];
-            return refuse(format!("start ends with {last}, there are {nodes} nodes in the list"));
-        }
-        Ok(())
-    }
-
-    fn check_nodes(&self, face: usize) -> Result<(), Error> {
-        let nodes = self.nodes(face);
-        if FaceKind::of(self.dim, nodes.len()).is_none() {
-            let known = if self.dim == 2 { "2 or 3" } else { "3, 4, 6, 8 or 9" };
-            let what = format!("has {} nodes, a face has {known}", nodes.len());
-            return Err(self.refuse(face, &what));
-        }
-        let count = self.coordinates.len() / self.dim;
-        for (i, &node) in nodes.iter().enumerate() {
-            if node >= count {
-                let what =
-                    format!("has node {}, the coordinates are those of {count} nodes", index(node));
-                return Err(self.refuse(face, &what));
-            }
-            if nodes[..i].contains(&node) {
-                return Err(self.refuse(face, &format!("has node {} twice", index(node))));
-            }
-            let place = self.dim * node;
-            let coordinates = &self.coordinates[place..place + self.dim];
-            if let Some(c) = coordinates.iter().position(|x| !x.is_finite()) {
-                let place = entry("coordinates", [place + c]);
-                let message = format!(
-                    "{place} of node {} in {} face {} is not finite",
-                    index(node),
-                    self.name,
-                    index(face)
-                );
-                return Err(Error::invalid(self.of_coordinates(), message));
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses a face without area, and one that turns over in itself.
-    fn check_shape(&self, at: usize) -> Result<(), Error> {
-        let face = self.face(at);
-        let size = face.size();
-        let inner = |&&node: &&usize| self.position(node).x < -ON_PLANE * size;
-        if let Some(&node) = face.nodes.iter().find(inner).filter(|_| face.is_ring) {
-            let radius = self.coordinates[self.dim * node];
-            let what =
-                format!("has node {} at the radius {radius}, beyond the axis x = 0", index(node));
-            return Err(self.refuse(at, &what));
-        }
-        let least = LEAST_AREA * if self.dim == 2 { size } else { size * size };
-        let middle = face.outward(face.kind.centre());
-        // Written so that zero and NaN are refused.
-        if !(middle.norm() > least) {
-            return Err(self.refuse(at, "has no area: its nodes coincide or stand in one line"));
-        }
-        for (i, &place) in face.kind.places().iter().enumerate() {
-            let normal = face.outward(place);
-            if !(normal.norm() > least && normal.dot(&middle) > 0.0) {
-                let what = format!(
-                    "is folded at node {}: check the order of its nodes, the number from which \
-                     they count, and that corners are convex and mid nodes near the middle of their edges",
-                    index(face.nodes[i])
-                );
-                return Err(self.refuse(at, &what));
-            }
-        }
-        Ok(())
-    }
-
-    /// Refuses neighbours that run along their common edge in the same direction, if none runs along it in the other: where
-    /// bodies meet in an edge, two do in each.
-    fn check_orientation(&self, watch: &mut Watch<'_, '_>) -> Result<(), Error> {
-        let mut seen: HashMap<(usize, usize), usize> =
-            HashMap::with_capacity(self.faces.nodes.len());
-        let mut again = Vec::new();
-        for face in 0..self.count() {
-            watch.goes_on()?;
-            let corners = self.corners(face);
-            for (i, &a) in corners.iter().enumerate() {
-                let b = corners[(i + 1) % corners.len()];
-                // On a line the node and its end: 0 if it begins there, 1 if it ends there.
-                let [key, opposite] =
-                    if self.dim == 2 { [(a, i), (a, 1 - i)] } else { [(a, b), (b, a)] };
-                if let Some(other) = seen.insert(key, face) {
-                    again.push(([face, other], [a, b], opposite));
-                }
-            }
-        }
-        let alone = again.iter().find(|(.., opposite)| !seen.contains_key(opposite));
-        let Some(([face, other], [a, b], _)) = alone else { return Ok(()) };
-        let where_ = if self.dim == 2 {
-            format!("node {}", index(a))
-        } else {
-            format!("the edge of nodes {} and {}", index(a), index(b))
-        };
-        let what = format!(
-            "and face {} disagree at {where_}: one of them is turned over, or they lie \
-             upon each other; turn the order of its nodes, or leave it out",
-            index(other)
-        );
-        Err(self.refuse(*face, &what))
     }
 }

@@ -47,7 +47,7 @@ struct Search<'a> {
 ///
 /// # Errors
 /// Master faces that lie over each other; faces that are turned over in the projection; normals that
-/// cancel at a slave node, or that are across a plane of symmetry.
+/// cancel at a slave node.
 pub(super) fn pairs<'a>(
     sides: [&'a Side<'a>; 2],
     planes: &'a OnPlanes,
@@ -86,7 +86,7 @@ pub(super) fn pairs<'a>(
     report.folded = rims::fold(settings.rims, &mut rows, (slave, planes), watch)?;
     let pair = |node, row: Row| {
         let (gap, normal) = (row.gap / row.area, mean_normal(node, &row)?);
-        let mut pair = pair_of_row(sides, planes, (node, row), normal)?;
+        let mut pair = pair_of_row(sides, planes, (node, row), normal);
         if let Some(shapes) = &shapes {
             let size = shapes.size() + Vector3::from(pair.point).lp_norm(1);
             pair.gap = without_rounding(gap, size);
@@ -259,7 +259,7 @@ fn rows(
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
             let integrals = [covered.integrals, face.integrals()];
-            *slave_area += integrals[1].iter().sum::<f64>();
+            *slave_area += slave.own_area(at, integrals[1]);
             let on = (face.nodes, &basis);
             add_face(&mut rows, on, integrals, covered.weights(), (at_nodes(&face), covered.gaps));
         }
@@ -269,7 +269,7 @@ fn rows(
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, !planes.touch_axis(&face));
         let (integrals, normal) = (face.integrals(), face.middle_normal());
-        *slave_area += integrals.iter().sum::<f64>();
+        *slave_area += slave.own_area(at, integrals);
         let whole = basis.functions(integrals);
         for (node, whole) in face.nodes.iter().zip(whole) {
             // Around a sharp edge faces look elsewhere, and the node has none of its contact there.

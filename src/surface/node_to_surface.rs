@@ -90,7 +90,7 @@ fn meets(
 /// The pairs of two sides.
 ///
 /// # Errors
-/// Normals that cancel at a slave node, or that are across a plane of symmetry.
+/// Normals that cancel at a slave node.
 pub(super) fn pairs(
     sides: [&Side<'_>; 2],
     planes: &OnPlanes,
@@ -120,7 +120,7 @@ pub(super) fn pairs(
             let masters = met[&slave].weights.iter();
             row.add_masters(masters.map(|(node, weight)| (*node, part * weight)));
         }
-        pair_of_row(sides, planes, (node, row), met[&node].normal)
+        Ok(pair_of_row(sides, planes, (node, row), met[&node].normal))
     };
     let mut found = pairs_of_rows(slave, rows, report, pair, watch)?;
     for at in 0..slave.count() {

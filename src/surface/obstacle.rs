@@ -13,7 +13,7 @@ use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
-use super::with_images::{own_pairs, with_images};
+use super::with_images::WithImages;
 use crate::error::{Argument, Error, index};
 
 fn refuse<T>(message: &str) -> Result<T, Error> {
@@ -41,29 +41,30 @@ pub(super) fn pairs(
         clearance,
         ..Default::default()
     };
-    settings.check(side.dim)?;
+    let settings = &settings.checked(side.dim)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
     let side = side.checked((unit.inside, axisymmetric), watch)?;
-    let found = match sector {
-        None => facing(&side, &obstacle, settings, watch)?,
-        Some(sector) => {
-            let (images, [all, _]) = with_images((sector, &settings.shapes), [&side; 2], watch)?;
-            own_pairs(facing(&all.on(&side), &obstacle, settings, watch)?, images, side.count())
-        }
+    let mut on = OnPlanes::new(&side, settings)?;
+    let images = WithImages::new(settings, (&side, &mut on), None, watch)?;
+    let Some(images) = images else {
+        let found = facing(&side, (&obstacle, &on), settings, watch)?;
+        return unit.of_host(found, settings);
     };
+    let [all, _] = images.sides(&side, &side);
+    let found = facing(&all, (&obstacle, &on), settings, watch)?;
+    let found = images.own_pairs(found, &side)?;
     unit.of_host(found, settings)
 }
 
 /// The pairs of a side that is checked.
 fn facing(
     side: &Side<'_>,
-    obstacle: &ExactShape,
+    (obstacle, on): (&ExactShape, &OnPlanes),
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
-    let planes = OnPlanes::new(side, settings)?;
     watch.expects(side.count());
     self_overlap::check(side, &mut SearchFaces::new(side, watch)?, reach, watch)?;
     let mut facing = BTreeMap::new();
@@ -83,9 +84,9 @@ fn facing(
     let mut report =
         SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    let rows = whole_rows(meets, (side, &planes), &mut report, watch)?;
+    let rows = whole_rows(meets, (side, on), &mut report, watch)?;
     let pair = |node, row: Row| {
-        let pair = pair_of_row([side; 2], &planes, (node, row), facing[&node].1)?;
+        let pair = pair_of_row([side; 2], on, (node, row), facing[&node].1);
         let slaves = pair.slaves().iter();
         let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
         let gap = slaves.clone().map(|(node, weight)| weight * facing[node].0).sum();
@@ -93,7 +94,7 @@ fn facing(
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
     let mut found = pairs_of_rows(side, rows, report, pair, watch)?;
-    planes.tell(&mut found.held);
+    on.tell(&mut found.held);
     Ok(found)
 }
 
@@ -104,5 +105,5 @@ fn looking_away(side: &Side<'_>, shape: &ExactShape) -> usize {
         let (_, normal) = shape.facing(face.position(middle));
         normal.is_some_and(|normal| normal.dot(&face.outward(middle)) <= 0.0)
     };
-    (0..side.count()).filter(looks_away).count()
+    (0..side.count()).filter(|at| !side.is_image(*at)).filter(looks_away).count()
 }

@@ -4,13 +4,12 @@
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs};
-use super::settings::{Pairing, SurfaceSettings};
+use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::surfaces::{Master, Surfaces};
-use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
-use super::with_images::{own_pairs, with_images};
+use super::with_images::WithImages;
 use super::{mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
@@ -51,9 +50,7 @@ pub fn pair_surfaces(
         }
         Master::RigidFaces { coordinates, faces } => {
             let rigid = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-            let found = pair_sides([slave, rigid], settings, watch)?;
-            let pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
-            Ok(SurfacePairs { pairs, ..found })
+            pair_sides([slave, rigid], settings, watch)
         }
         Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, watch),
     }
@@ -65,19 +62,35 @@ fn pair_sides(
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    settings.check(slave.dim)?;
+    let settings = &settings.checked(slave.dim)?;
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
     let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
     let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
-    let found = match settings.sector {
-        None => search([&slave, &master], settings, watch)?,
-        Some(sector) => {
-            let (images, sides) =
-                with_images((sector, &settings.shapes), [&slave, &master], watch)?;
-            let sides = [sides[0].on(&slave), sides[1].on(&master)];
-            own_pairs(search(sides.each_ref(), settings, watch)?, images, slave.count())
+    let [mut on, on_master] = [OnPlanes::new(&slave, settings)?, OnPlanes::new(&master, settings)?];
+    let reach = reach([(&slave, &on), (&master, &on_master)], settings);
+    let within = f64::max(reach.overlap, reach.open).min(span([&slave, &master]));
+    // Normals are fitted to three faces around.
+    let is_fitted = settings.shapes.contains(&TrueShape::Fitted);
+    let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
+    let opposite = Some((&master, &on_master, wanted));
+    let images = WithImages::new(settings, (&slave, &mut on), opposite, watch)?;
+    let mut found = match &images {
+        None => search([&slave, &master], (&on, reach), settings, watch)?,
+        Some(images) => {
+            let sides = images.sides(&slave, &master);
+            search(sides.each_ref(), (&on, reach), settings, watch)?
         }
     };
+    on.tell(&mut found.held);
+    if master.is_rigid() {
+        found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
+    } else {
+        on_master.tell(&mut found.held);
+    }
+    found.report.idle_planes = on.idle;
+    if let Some(images) = images {
+        found = images.own_pairs(found, &slave)?;
+    }
     watch.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
     watch.goes_on()?;
@@ -85,59 +98,52 @@ fn pair_sides(
     Ok(found)
 }
 
-/// The pairs of two sides that are checked.
+/// The pairs of two sides that are checked, with their images.
 fn search(
     sides: [&Side<'_>; 2],
+    (on, reach): (&OnPlanes, Reach),
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    let planes = OnPlanes::new(slave, settings)?;
     watch.goes_on()?;
     let mut own = SearchFaces::new(slave, watch)?;
     let mut opposite = SearchFaces::new(master, watch)?;
-    let (reach, span) = reach(sides, [own.tree.bounds(), opposite.tree.bounds()], settings);
     watch.expects(2 * slave.count() + master.count());
     self_overlap::check(slave, &mut own, reach.overlap, watch)?;
     if settings.pairing == Pairing::DualMortar {
         self_overlap::check(master, &mut opposite, reach.overlap, watch)?;
     }
-    let candidates = Candidates::new(opposite, reach, span);
-    let found = match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, &planes, (own, candidates), settings, watch),
+    let candidates = Candidates::new(opposite, reach, span(sides));
+    match settings.pairing {
+        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, watch),
         Pairing::NodeToSurface => {
-            node_to_surface::pairs(sides, &planes, (own, candidates), settings.normals, watch)
+            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, watch)
         }
-    };
-    let mut found = found?;
-    planes.tell(&mut found.held);
-    found.report.idle_planes = planes.idle;
-    if !master.is_rigid() {
-        OnPlanes::new(master, settings)?.tell(&mut found.held);
     }
-    Ok(found)
 }
 
-/// How far masters are looked for, and how far away any face may be. Displacements that are small beside the bodies do not
-/// reach further than the smaller of the two sides.
-fn reach(
-    sides: [&Side<'_>; 2],
-    boxes: [Option<Bounds>; 2],
-    settings: &SurfaceSettings,
-) -> (Reach, f64) {
-    let [slave, _] = sides;
-    let largest = (0..slave.count()).map(|face| slave.face(face).size()).fold(0.0, f64::max);
-    let all = boxes.into_iter().flatten().reduce(|a, b| a.with(&b));
-    let span = all.map_or(0.0, |all| all.diagonal());
+/// How far masters are looked for. Displacements that are small beside the bodies do not reach further than the smaller of the
+/// two sides of the whole body.
+fn reach(sides: [(&Side<'_>, &OnPlanes); 2], settings: &SurfaceSettings) -> Reach {
+    let [(slave, _), _] = sides;
+    let largest = slave.largest_face();
     let open = || {
-        let [own, opposite] = sides.map(Side::radius);
+        let radius =
+            |(side, on): (&Side<'_>, &OnPlanes)| side.radius(on.middle(side, settings.sector));
+        let [own, opposite] = sides.map(radius);
         largest.max(own.min(opposite))
     };
-    let reach = match settings.search_distance.map(|distance| slave.scale * distance) {
+    match settings.search_distance.map(|distance| slave.scale * distance) {
         Some(given) => Reach { overlap: given, open: given, layer: f64::INFINITY },
         None => Reach { overlap: largest, open: open(), layer: largest },
-    };
-    (reach, span)
+    }
+}
+
+/// No face of either side is further away from another one.
+fn span(sides: [&Side<'_>; 2]) -> f64 {
+    let [own, opposite] = sides.map(Side::bounds);
+    own.with(&opposite).diagonal()
 }
 
 /// The slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that.

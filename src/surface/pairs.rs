@@ -18,7 +18,7 @@ pub struct SurfacePair {
     /// The slave node that the row belongs to. No other pair belongs to it.
     pub slave: usize,
     /// The nodes of the row, slaves by node, then masters by node: one list is given back in half the time of two. In a sector
-    /// some may be images, as [`SurfacePairs::images`] counts them.
+    /// and at planes of symmetry some may be images, as [`SurfacePairs::images`] counts them.
     pub nodes: Vec<Weight>,
     /// Number of slaves among them.
     pub slave_count: usize,
@@ -118,7 +118,7 @@ pub struct SurfacePairs {
     /// Nodes of both sides that stand on planes of symmetry, with orthonormal directions across these. Along them a pair of such
     /// a slave node neither moves nor carries a force, and the rows that are handed out say so.
     pub held: BTreeMap<usize, Vec<[f64; 3]>>,
-    /// The images of nodes in the neighbours of a sector.
+    /// The images of nodes in the neighbours of a sector and beyond planes of symmetry.
     pub images: Images,
     /// The report on the pairing.
     pub report: SurfaceReport,
@@ -140,8 +140,8 @@ pub struct PairArrays {
     pub masters: Vec<usize>,
     /// Weights of the masters, in general rows of all nodes with their signs; empty with [`Self::vectors`].
     pub weights: Vec<f64>,
-    /// General rows by degree of freedom, of a sector and of planes of symmetry that are across no axis: `dim` numbers for each
-    /// of `masters`. Otherwise empty.
+    /// General rows by degree of freedom, of a sector, of planes of symmetry that are across no axis and where rows reach across
+    /// a plane: `dim` numbers for each of `masters`. Otherwise empty.
     pub vectors: Vec<f64>,
     /// Normals, `dim` for each pair.
     pub normals: Vec<f64>,
@@ -164,6 +164,27 @@ impl SurfacePair {
     /// Master nodes with their weights, by node; none against an obstacle.
     pub fn masters(&self) -> &[Weight] {
         &self.nodes[self.slave_count..]
+    }
+
+    /// Gives the row other nodes: `true` of masters, and the node, with its weight. Weights that are zero but for rounding are
+    /// left out.
+    pub(super) fn set_nodes(&mut self, mut weights: BTreeMap<(bool, usize), f64>) {
+        weights.retain(|_, weight| weight.abs() > ROUNDING);
+        self.slave_count = weights.keys().filter(|(is_master, _)| !is_master).count();
+        self.nodes = weights.into_iter().map(|((_, node), weight)| (node, weight)).collect();
+    }
+
+    /// `true` if the row has an image of a node.
+    pub(super) fn has_image(&self, images: &Images) -> bool {
+        self.nodes.iter().any(|(node, _)| images.has(*node))
+    }
+
+    /// The pair with other numbers of the images, in their order.
+    pub(super) fn renumbered(&self, images: &Images, numbers: &[usize]) -> SurfacePair {
+        let mut pair = self.clone();
+        let of_images = pair.nodes.iter_mut().filter(|(node, _)| images.has(*node));
+        of_images.for_each(|(node, _)| *node = numbers[*node - images.numbers().start]);
+        pair
     }
 
     /// The pair without its masters: against an obstacle.
@@ -277,7 +298,8 @@ impl SurfacePairs {
             let held = self.held(pair.slave);
             (0..self.dim).filter(|&axis| is_along(&held, axis)).count() < held.len()
         };
-        !self.images.are_none() || self.pairs.iter().any(is_skewed)
+        let is_by_dof = |pair: &SurfacePair| is_skewed(pair) || pair.has_image(&self.images);
+        self.images.are_of_sector() || self.pairs.iter().any(is_by_dof)
     }
 
     /// The directions across planes of symmetry on which a node stands.

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::motion::Motion;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::{self, Matrix3, Vector3, turn_about, unit, vector};
+use crate::linalg::vector3::{self, Vector3, turn_about, unit, vector};
 
 /// A sector of a body that consists of such sectors, each turned against the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,34 +46,15 @@ impl Sector {
         unit(self.axis.into()).unwrap_or_default()
     }
 
-    /// `true` of a point, in units of `scale`, that is nearer to the axis than that.
-    pub(super) fn is_on_axis(&self, x: Vector3, (scale, near): (f64, f64)) -> bool {
-        let from = x - scale * Vector3::from(self.point);
-        (from - self.axis().dot(&from) * self.axis()).norm() <= near
+    /// The nearest point of the axis to one in units of `scale`.
+    pub(super) fn foot(&self, x: Vector3, scale: f64) -> Vector3 {
+        let point = scale * Vector3::from(self.point);
+        point + self.axis().dot(&(x - point)) * self.axis()
     }
 
-    /// The turn by some sectors.
-    pub(super) fn turn(&self, by: i32) -> Matrix3 {
+    /// The motion of an image some sectors on.
+    pub(super) fn motion(&self, by: i32) -> Motion {
         let angle = f64::from(by) * TAU / self.count as f64;
-        turn_about(self.axis(), angle)
-    }
-
-    /// The places of images of points, some sectors on.
-    pub(super) fn image(&self, by: i32) -> impl Fn(Vector3) -> Vector3 {
-        let (point, turn) = (Vector3::from(self.point), self.turn(by));
-        move |x| point + turn * (x - point)
-    }
-
-    /// How far the neighbours are away, in sectors, the next ones first; up to `most` on both sides, each once.
-    pub(super) fn neighbours(&self, most: i32) -> Vec<i32> {
-        let count = self.count as i32;
-        let mut found: Vec<i32> = Vec::new();
-        for by in (1..=most).flat_map(|by| [by, -by]) {
-            let is_new = |other: &i32| (by - other) % count != 0;
-            if by % count != 0 && found.iter().all(is_new) {
-                found.push(by);
-            }
-        }
-        found
+        Motion::about(self.point.into(), turn_about(self.axis(), angle))
     }
 }

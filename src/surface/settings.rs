@@ -101,10 +101,12 @@ impl SurfaceSettings {
         self.clearance + if closed { 0.0 } else { measured }
     }
 
+    /// The settings, checked, with a unit vector as axis of the sector.
+    ///
     /// # Errors
     /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
-    /// space, or of which a sector is given.
-    pub(super) fn check(&self, dim: usize) -> Result<(), Error> {
+    /// space, or of which a sector is given; a sector that is none.
+    pub(super) fn checked(&self, dim: usize) -> Result<SurfaceSettings, Error> {
         let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
         // Written so that NaN is refused.
         if let Some(distance) = self.search_distance.filter(|distance| !(*distance > 0.0)) {
@@ -138,6 +140,7 @@ impl SurfaceSettings {
                            default, or pair by dual mortar",
             );
         }
-        Ok(())
+        let sector = self.sector.map(|sector| sector.checked(dim)).transpose()?;
+        Ok(SurfaceSettings { sector, ..self.clone() })
     }
 }

@@ -70,7 +70,7 @@ impl SurfacePairs {
         if !idle.is_empty() {
             found += &format!("; no slave node stands on plane of symmetry {}", idle.join(", "));
         }
-        if !self.images.are_none() {
+        if self.images.are_of_sector() {
             let first = self.images.on_first();
             let on = self.pairs.iter().filter(|pair| first.contains(&pair.slave)).count();
             found += &format!("; {on} of the pairs on the boundary of the sector");

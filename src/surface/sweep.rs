@@ -49,7 +49,13 @@ impl Bounds {
         Bounds { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    fn meets(&self, other: &Bounds) -> bool {
+    /// The box with a margin on all sides.
+    pub(super) fn widened(&self, by: f64) -> Bounds {
+        Bounds { low: self.low.add_scalar(-by), high: self.high.add_scalar(by) }
+    }
+
+    /// `true` if two boxes have a point in common.
+    pub(super) fn meets(&self, other: &Bounds) -> bool {
         (0..3).all(|c| self.low[c] <= other.high[c] && other.low[c] <= self.high[c])
     }
 }

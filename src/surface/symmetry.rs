@@ -1,30 +1,44 @@
-//! Planes of symmetry of half and quarter models, and the pairs whose slave nodes stand on them.
+//! Planes of symmetry of half and quarter models, and the nodes of a side that stand on them, or on an axis.
 //!
-//! In the whole body the row of such a node reaches as far to the other side. What it tells along the axis across
-//! the plane cancels against its mirror image, so that the pair neither moves nor carries a force along it. Half
-//! of the row, as the half model has it, would not cancel: it holds masters alone, of which there may be fewer
-//! than such rows, and its force would be one that the whole body does not have. So that direction of the row is given up,
-//! as other programs give up the multiplier of such a node along it. The mean normal of the faces around the
-//! node is that of the whole body too: without a part across the plane.
+//! In the whole body the row of a node on a plane reaches as far to the other side, and both sides are paired with their
+//! mirror images. What it tells along the axis across the plane cancels against its mirror image, so that the pair neither
+//! moves nor carries a force along it, as across the axis of a sector; the rows that are handed out have nothing there. The
+//! axis of bodies of revolution has no image: around it what is across the axis cancels in each ring.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::face::Face;
-use super::mesh::{ON_PLANE, Side};
+use super::images::Images;
+use super::mesh::Side;
+use super::motion::Motion;
 use super::normals::{at_nodes, direction};
 use super::plane;
+use super::sector::Sector;
 use super::settings::SurfaceSettings;
-use super::surfaces::Faces;
 use super::symmetry_plane::SymmetryPlane;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
-use crate::linalg::vector3::{self, Vector3, unit, vector, without};
+use crate::linalg::vector3::{self, Vector3, unit, without};
 
-/// The slave nodes that stand on planes of symmetry.
+/// A plane of symmetry on one side of which all nodes of a side stand.
+#[derive(Clone, Debug)]
+pub(super) struct Mirror {
+    pub(super) motion: Motion,
+    /// The nodes on it, ascending.
+    pub(super) nodes: Vec<usize>,
+}
+
+/// The nodes of a side that stand on planes of symmetry, or on an axis.
 #[derive(Debug, Default)]
 pub(super) struct OnPlanes {
-    /// Orthonormal directions across the planes that each of them stands on.
+    /// Orthonormal directions across the planes, or the axis, that each of them stands on.
     across: BTreeMap<usize, Vec<Vector3>>,
+    /// Those on the axis of bodies of revolution.
+    of_rings: BTreeSet<usize>,
+    /// Those on the axis of a sector.
+    pub(super) on_axis: Vec<usize>,
+    /// The planes that the side ends at, or does not reach.
+    pub(super) mirrors: Vec<Mirror>,
     /// The planes that no node stands on.
     pub(super) idle: Vec<usize>,
 }
@@ -33,92 +47,143 @@ impl OnPlanes {
     /// Those of a side. A plane that has nodes of a master on both sides is none of it.
     ///
     /// # Errors
-    /// A plane whose normal is no direction of the space, or at no finite place; a slave side on both sides of a plane.
+    /// A plane whose normal is no direction of the space, or at no finite place; a slave side on both sides of a plane, or with
+    /// faces in one.
     pub(super) fn new(side: &Side<'_>, settings: &SurfaceSettings) -> Result<Self, Error> {
         let mut found = OnPlanes::default();
         let (nodes, near) = (side.all_nodes(), side.nearness());
         let place = |node: &&usize| side.position(**node);
         if settings.axisymmetric {
-            let on = nodes.iter().filter(|node| place(node).x <= near);
-            on.for_each(|node| found.add(*node, vector3::axis(0)));
+            found.of_rings = nodes.iter().filter(|node| place(node).x <= near).copied().collect();
+            let on = found.of_rings.clone();
+            on.into_iter().for_each(|node| found.add(node, vector3::axis(0)));
         }
         if let Some(sector) = settings.sector {
-            // What is across the axis cancels over all sectors.
-            let is_on = |node: &&usize| sector.is_on_axis(place(node), (side.scale, near));
+            let is_on =
+                |node: &&usize| (place(node) - sector.foot(place(node), side.scale)).norm() <= near;
+            found.on_axis = nodes.iter().filter(is_on).copied().collect();
             let across = plane::tangents(3, sector.axis());
-            let on = nodes.iter().filter(is_on);
-            on.for_each(|node| across.into_iter().for_each(|across| found.add(*node, across)));
+            let on = found.on_axis.clone();
+            on.into_iter().for_each(|node| across.into_iter().for_each(|a| found.add(node, a)));
         }
         for (k, plane) in settings.symmetry.iter().enumerate() {
-            let refuse = |what: String| {
+            found.add_plane((k, plane), (side, &nodes, near)).map_err(|what| {
                 let message = format!("plane of symmetry {}{what}", index(k));
-                Err(Error::invalid(Argument::Settings, message))
-            };
-            let [x, y, z] = plane.normal;
-            let is_of_space = |across: &Vector3| side.dim > 2 || across.z == 0.0;
-            let Some(across) = unit(plane.normal.into()).filter(is_of_space) else {
-                let dim = side.dim;
-                return refuse(format!(
-                    ": its normal {x}, {y}, {z} is no direction in {dim} dimensions"
-                ));
-            };
-            if !plane.at.is_finite() {
-                return refuse(format!(": it stands at {}, which is not finite", plane.at));
-            }
-            let height = |node: &&usize| plane.height(&across, place(node), side.scale);
-            let ends = [
-                nodes.iter().rfind(|node| height(node) < -near),
-                nodes.iter().rfind(|node| height(node) > near),
-            ];
-            match ends {
-                [Some(below), Some(above)] if side.is_slave() => {
-                    let (name, below, above) = (plane.name(), index(*below), index(*above));
-                    return refuse(format!(
-                        ", {name}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave \
-                         the plane out"
-                    ));
-                }
-                [Some(_), Some(_)] => {}
-                _ => {
-                    let on = nodes.iter().filter(|node| height(node).abs() <= near);
-                    let count = on.map(|node| found.add(*node, across)).count();
-                    found.idle.extend((count == 0).then_some(k));
-                }
-            }
+                Error::invalid(Argument::Settings, message)
+            })?;
+        }
+        if side.is_slave() {
+            found.check(side)?;
         }
         Ok(found)
     }
 
-    /// Adds a plane that a node stands on, unless it stands on it already.
+    /// Refuses slave faces in a plane, or on the axis of bodies of revolution.
+    fn check(&self, side: &Side<'_>) -> Result<(), Error> {
+        let lies = |face: &Face<'_>, on: &[usize]| {
+            face.nodes.iter().all(|node| on.binary_search(node).is_ok())
+        };
+        let of_rings: Vec<usize> = self.of_rings.iter().copied().collect();
+        for at in 0..side.count() {
+            let face = side.face(at);
+            let on = self.mirrors.iter().map(|mirror| &mirror.nodes).chain([&of_rings]);
+            if on.clone().any(|on| lies(&face, on)) {
+                let node = face.nodes.iter().min().copied().unwrap_or_default();
+                let message = format!(
+                    "a plane of symmetry has slave faces in it, at node {}: leave these faces out, or the plane",
+                    index(node)
+                );
+                return Err(Error::invalid(Argument::Settings, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a plane by its number.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    fn add_plane(
+        &mut self,
+        (k, plane): (usize, &SymmetryPlane),
+        (side, nodes, near): (&Side<'_>, &[usize], f64),
+    ) -> Result<(), String> {
+        let ([x, y, z], dim) = (plane.normal, side.dim);
+        let is_of_space = |across: &Vector3| dim > 2 || across.z == 0.0;
+        let Some(across) = unit(plane.normal.into()).filter(is_of_space) else {
+            return Err(format!(": its normal {x}, {y}, {z} is no direction in {dim} dimensions"));
+        };
+        if !plane.at.is_finite() {
+            return Err(format!(": it stands at {}, which is not finite", plane.at));
+        }
+        let height = |node: &usize| plane.height(&across, side.position(*node), side.scale);
+        let below = nodes.iter().rfind(|node| height(node) < -near);
+        let above = nodes.iter().rfind(|node| height(node) > near);
+        if let Some((below, above)) = below.zip(above) {
+            if !side.is_slave() {
+                return Ok(());
+            }
+            let (name, below, above) = (plane.name(), index(*below), index(*above));
+            return Err(format!(
+                ", {name}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave the plane out"
+            ));
+        }
+        let on: Vec<usize> =
+            nodes.iter().filter(|node| height(node).abs() <= near).copied().collect();
+        on.iter().for_each(|node| self.add(*node, across));
+        self.idle.extend(on.is_empty().then_some(k));
+        self.mirrors.push(Mirror { motion: Motion::mirror(across, plane.at), nodes: on });
+        Ok(())
+    }
+
+    /// Adds a direction across a plane that a node stands on, unless it stands on it already.
     fn add(&mut self, node: usize, across: Vector3) {
         let held = self.across.entry(node).or_default();
         held.extend(direction(without(across, held), 1.0));
     }
 
-    /// The unit normal of a slave node without what is across its planes, as the mean with its mirror images is. One
-    /// that is across its plane, as in a face that lies in it, stays.
+    /// The unit normal of a slave node without what is across its planes: of the mean with its mirror images rounding.
     pub(super) fn turned(&self, node: usize, normal: Vector3) -> Vector3 {
-        match self.of(node) {
+        match self.held(node) {
             [] => normal,
             across => direction(without(normal, across), 1.0).unwrap_or(normal),
         }
     }
 
-    /// Orthonormal directions across the planes that a node stands on.
-    fn of(&self, node: usize) -> &[Vector3] {
+    /// Orthonormal directions along which a node is held.
+    pub(super) fn held(&self, node: usize) -> &[Vector3] {
         self.across.get(&node).map_or(&[], Vec::as_slice)
     }
 
-    /// `true` if a node stands on all planes that another one, `from`, stands on: else what goes from there would leave
-    /// the plane.
+    /// `true` if a node is on the axis of bodies of revolution if another one, `from`, is: else what goes from there would
+    /// leave the axis.
     pub(super) fn stays(&self, node: usize, from: usize) -> bool {
-        self.of(from).iter().all(|across| direction(without(*across, self.of(node)), 1.0).is_none())
+        !self.of_rings.contains(&from) || self.of_rings.contains(&node)
     }
 
     /// `true` of a ring that touches its axis.
     pub(super) fn touch_axis(&self, face: &Face<'_>) -> bool {
-        let stands = |node: &usize| self.of(*node).contains(&vector3::axis(0));
-        face.is_ring && face.nodes.iter().any(stands)
+        face.is_ring && face.nodes.iter().any(|node| self.of_rings.contains(node))
+    }
+
+    /// The middle of a side and its images: on the axis, and on the planes on which some of its nodes stand.
+    pub(super) fn middle(&self, side: &Side<'_>, sector: Option<Sector>) -> Vector3 {
+        let mut middle = side.mean();
+        for Mirror { motion, .. } in self.mirrors.iter().filter(|mirror| !mirror.nodes.is_empty()) {
+            let host = middle / side.scale;
+            middle = 0.5 * side.scale * (host + motion.of(host));
+        }
+        sector.map_or(middle, |sector| sector.foot(middle, side.scale))
+    }
+
+    /// Adds images of nodes on the axis of bodies of revolution: these are on it too.
+    pub(super) fn see(&mut self, images: &Images) {
+        for image in images.numbers() {
+            if self.of_rings.contains(&images.at(image).1) {
+                self.of_rings.insert(image);
+                self.add(image, vector3::axis(0));
+            }
+        }
     }
 
     /// Adds the nodes to what pairs tell.
@@ -126,74 +191,7 @@ impl OnPlanes {
         let given = |across: &[Vector3]| across.iter().copied().map(Into::into).collect();
         told.extend(self.across.iter().map(|(node, across)| (*node, given(across))));
     }
-
-    /// Orthonormal directions along which a slave node with this normal is held.
-    ///
-    /// # Errors
-    /// The normal is across one.
-    pub(super) fn held(&self, node: usize, normal: Vector3) -> Result<&[Vector3], Error> {
-        let held = self.of(node);
-        if held.iter().any(|across| across.dot(&normal).abs() > ON_PLANE) {
-            let message = format!(
-                "a plane of symmetry has slave faces in it, at node {}: leave these faces out, or the plane",
-                index(node)
-            );
-            return Err(Error::invalid(Argument::Settings, message));
-        }
-        Ok(held)
-    }
 }
-
-/// A side with its mirror image across a plane, behind its own nodes and faces. Nodes on the plane are their own images.
-pub(super) struct Reflected {
-    coordinates: Vec<f64>,
-    start: Vec<usize>,
-    nodes: Vec<usize>,
-}
-
-impl Reflected {
-    /// Without the image if the side has nodes beyond the plane.
-    pub(super) fn new(side: &Side<'_>, plane: SymmetryPlane) -> Reflected {
-        let mut coordinates = side.coordinates.to_vec();
-        let (mut start, mut nodes) = (side.faces.start.to_vec(), side.faces.nodes.to_vec());
-        let (own, near) = (side.all_nodes(), side.nearness());
-        let across = unit(Vector3::from(plane.normal)).unwrap_or_default();
-        let height = |node: &usize| plane.height(&across, side.position(*node), side.scale);
-        let [below, above] =
-            [-1.0, 1.0].map(|sign| own.iter().all(|node| sign * height(node) >= -near));
-        if below || above {
-            let mut images = HashMap::new();
-            for node in own {
-                let mut image = node;
-                if height(&node).abs() > near {
-                    image = coordinates.len() / side.dim;
-                    let x = vector(&side.coordinates[side.dim * node..][..side.dim]);
-                    let mirrored = x - 2.0 * plane.height(&across, x, 1.0) * across;
-                    coordinates.extend(&mirrored.as_slice()[..side.dim]);
-                }
-                images.insert(node, image);
-            }
-            for face in 0..side.count() {
-                let (face, corners) = (side.face(face), side.corners(face).len());
-                let mut image: Vec<usize> = face.nodes.iter().map(|node| images[node]).collect();
-                image[..corners].reverse();
-                // Mid nodes are between corners as before; the last edge stays the last.
-                let mids = corners..face.nodes.len().min(2 * corners - 1);
-                image[mids].reverse();
-                nodes.extend(image);
-                start.push(nodes.len());
-            }
-        }
-        Reflected { coordinates, start, nodes }
-    }
-
-    /// As a side like the one that it was made of.
-    pub(super) fn on<'a>(&'a self, side: &Side<'a>) -> Side<'a> {
-        let faces = Faces { start: &self.start, nodes: &self.nodes };
-        side.with(&self.coordinates, faces)
-    }
-}
-
 impl Side<'_> {
     /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand; zero
     /// where they cancel.

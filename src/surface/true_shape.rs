@@ -63,7 +63,7 @@ impl<'a> TrueSides<'a> {
         let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::default()),
             TrueShape::Fitted => {
-                let fitted = Some(fitted(side, &settings.symmetry, watch)?);
+                let fitted = Some(fitted(side, watch)?);
                 Ok(TrueSide { fitted, exact: None })
             }
             TrueShape::Exact(shape) => {

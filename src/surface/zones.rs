@@ -5,11 +5,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::candidates::SAME_WAY;
 use super::mesh::ON_PLANE;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
+use super::sector_boundary::at_images;
 use super::surfaces::Faces;
 use super::sweep::Bounds;
-use super::with_images::at_images;
 use crate::error::{Argument, Error, Message, index};
-use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, unit, without};
 
 /// A contact zone: its name, its pairs, and the slave faces that they were made of.
@@ -52,21 +51,24 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     // The places of the pairs of a node.
     let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
     for ContactZone { name, contact, .. } in zones {
-        joined.images.join(&contact.images).map_err(|_| {
-            let message =
-                format!("zone '{name}' is in another sector than zone '{}'", zones[0].name);
+        let numbers = joined.images.join(&contact.images).map_err(|_| {
+            let message = format!(
+                "zone '{name}' is in another sector than zone '{}', or of another mesh",
+                zones[0].name
+            );
             Error::invalid(Argument::Pairs, message)
         })?;
         joined.held.extend(contact.held.clone());
         for pair in &contact.pairs {
+            let pair = pair.renumbered(&contact.images, &numbers);
             let of_node = places.entry(pair.slave).or_default();
-            let same = of_node.iter().find(|&&at| joined.pairs[at].is_of_the_surface_of(pair));
+            let same = of_node.iter().find(|&&at| joined.pairs[at].is_of_the_surface_of(&pair));
             if let Some(&at) = same {
                 let held = joined.held(pair.slave);
-                joined.pairs[at].take_in(pair, &held);
+                joined.pairs[at].take_in(&pair, &held);
             } else {
                 of_node.push(joined.pairs.len());
-                joined.pairs.push(pair.clone());
+                joined.pairs.push(pair);
             }
         }
         joined.unpaired.extend(&contact.unpaired);
@@ -108,17 +110,17 @@ fn check_boundary(
     starts: &[usize],
     zones: &[ContactZone<'_>],
 ) -> Result<(), String> {
-    if joined.images.are_none() {
+    if !joined.images.are_of_sector() {
         return Ok(());
     }
     let points: Vec<Vector3> = joined.pairs.iter().map(|pair| pair.point.into()).collect();
     let Bounds { low, high } = Bounds::of(points.iter().copied());
     let near = ON_PLANE * (high - low).amax();
     let zone = |pair: usize| starts.partition_point(|start| *start <= pair) - 1;
-    let image = |x| joined.images.image(x, 1);
-    let found = at_images(&points, image, near, || Ok::<(), String>(()))?;
+    let to_second = joined.images.to_second();
+    let found = at_images(&points, |x| to_second.of(x), near, || Ok::<(), String>(()))?;
     for (pair, same) in found.into_iter().enumerate() {
-        let normal = joined.images.turn(1) * Vector3::from(joined.pairs[pair].normal);
+        let normal = to_second.turn * Vector3::from(joined.pairs[pair].normal);
         let is_half = |other: &&usize| {
             let others = Vector3::from(joined.pairs[**other].normal);
             zone(**other) != zone(pair) && normal.dot(&others) > SAME_WAY
@@ -223,7 +225,7 @@ impl SurfacePair {
         (self.normal, self.area) = (normal.into(), area);
     }
 
-    /// Adds the nodes of another row, by the shares of both. Weights that are zero but for rounding are left out.
+    /// Adds the nodes of another row, by the shares of both.
     fn add_nodes(&mut self, other: &SurfacePair, shares: [f64; 2]) {
         // Slaves, then masters.
         let mut weights: BTreeMap<(bool, usize), f64> = BTreeMap::new();
@@ -233,9 +235,7 @@ impl SurfacePair {
                 *weights.entry((is_master, *node)).or_default() += share * weight;
             }
         }
-        weights.retain(|_, weight| weight.abs() > ROUNDING);
-        self.slave_count = weights.keys().filter(|(is_master, _)| !is_master).count();
-        self.nodes = weights.into_iter().map(|((_, node), weight)| (node, weight)).collect();
+        self.set_nodes(weights);
     }
 }
 

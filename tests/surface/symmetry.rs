@@ -44,11 +44,21 @@ fn turned(dim: usize, face: &[usize]) -> Vec<usize> {
 impl Bodies {
     /// Blocks on 0..1 along each axis but the last, with irregular steps.
     fn new(kinds: [(Cells, Order); 2], cells: [[usize; 2]; 2], dim: usize, rng: &mut Rng) -> Self {
+        Bodies::of_sizes([1.0; 2], (kinds, cells), dim, rng)
+    }
+
+    /// Blocks from 0 to their size along each axis but the last.
+    fn of_sizes(
+        sizes: [f64; 2],
+        (kinds, cells): ([(Cells, Order); 2], [[usize; 2]; 2]),
+        dim: usize,
+        rng: &mut Rng,
+    ) -> Self {
         let materials = [(2000.0, 0.3), (500.0, 0.2)];
         let solids = [0, 1].map(|body| {
             let level = if body == 0 { [-0.8, 0.0] } else { [0.0, 0.6] };
             let mut lines: Vec<Vec<f64>> =
-                (0..dim - 1).map(|c| grid(0.0, 1.0, cells[body][c], rng)).collect();
+                (0..dim - 1).map(|c| grid(0.0, sizes[body], cells[body][c], rng)).collect();
             lines.push(crate::surfaces::steps(level[0], level[1], 2));
             let lines: Vec<&[f64]> = lines.iter().map(|line| &line[..]).collect();
             Solid::new(&lines, kinds[body], materials[body], (0.15, rng))
@@ -284,6 +294,32 @@ fn parts_have_the_solution_of_the_whole_body() {
     assert_all(&states);
     // Without the planes the result is another one: rows of half of their masters carry friction.
     assert!(unnamed > 1e-4, "{unnamed:e}");
+}
+
+/// A slave that is wider than its master has nodes with little cover, on planes too: their rows go to nodes on both sides of a
+/// plane, and the rows that take them in hold mirror images.
+#[test]
+fn rims_at_planes_are_those_of_the_whole_body() {
+    let mut rng = Rng::with_seed(25);
+    let kinds = [
+        (Cells::Boxes, Order::Linear),
+        (Cells::Simplices, Order::Linear),
+        (Cells::Boxes, Order::Edges),
+        (Cells::Simplices, Order::Edges),
+        (Cells::Wedges, Order::Edges),
+    ];
+    let mut with_images = 0;
+    for (i, kind) in kinds.into_iter().enumerate() {
+        for upper_is_slave in [false, true] {
+            let sizes = if upper_is_slave { [1.0, 1.2] } else { [1.2, 1.0] };
+            let held = 1 + (i + usize::from(upper_is_slave)) % 2;
+            let part = Bodies::of_sizes(sizes, ([kind; 2], [[3, 2], [2, 3]]), 3, &mut rng);
+            let context = format!("{kind:?}, {held} planes, {upper_is_slave}");
+            with_images += usize::from(!part.found(upper_is_slave, held).rows().vectors.is_empty());
+            check(&part, held, upper_is_slave, &context);
+        }
+    }
+    assert!(with_images > 0);
 }
 
 /// In the plane.

@@ -1,0 +1,44 @@
+//! Motions that lay a body upon its image: turns about an axis, mirror images, and both one after the other.
+
+use crate::linalg::vector3::{Matrix3, Vector3};
+
+/// `x -> Q x + shift` with an orthogonal `Q`, in the host's unit of length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Motion {
+    /// `Q`: displacements move by it.
+    pub(super) turn: Matrix3,
+    shift: Vector3,
+}
+
+impl Motion {
+    /// The one that leaves all where it is.
+    pub(super) fn none() -> Motion {
+        Motion { turn: Matrix3::identity(), shift: Vector3::zeros() }
+    }
+
+    /// A turn about a point.
+    pub(super) fn about(point: Vector3, turn: Matrix3) -> Motion {
+        Motion { turn, shift: point - turn * point }
+    }
+
+    /// The mirror image at a plane across a unit vector, so far along it.
+    pub(super) fn mirror(across: Vector3, at: f64) -> Motion {
+        let turn = Matrix3::identity() - 2.0 * across * across.transpose();
+        Motion { turn, shift: 2.0 * at * across }
+    }
+
+    /// The image of a point.
+    pub(super) fn of(&self, x: Vector3) -> Vector3 {
+        self.turn * x + self.shift
+    }
+
+    /// Another motion, and then this one.
+    pub(super) fn after(&self, first: &Motion) -> Motion {
+        Motion { turn: self.turn * first.turn, shift: self.of(first.shift) }
+    }
+
+    /// `true` of one that turns faces over.
+    pub(super) fn mirrors(&self) -> bool {
+        self.turn.determinant() < 0.0
+    }
+}
