@@ -7,7 +7,7 @@ use super::equations::{Dependents, Equations, refuse};
 use super::frame::Frame;
 use crate::error::{Error, index, number};
 use crate::linalg::row_elimination::{Terms, gathered};
-use crate::linalg::tolerances::AGREES;
+use crate::linalg::tolerances::{AGREES, ROUNDING};
 use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::problem::checked_dim;
 
@@ -84,6 +84,15 @@ impl ContactPairs<'_> {
         terms
     }
 
+    /// The equations of a pair, by axis. One that is rounding beside the others tells nothing.
+    fn equations(&self, pair: usize) -> impl Iterator<Item = Terms> {
+        let mut equations: Vec<Terms> = (0..self.dim).map(|axis| self.terms(pair, axis)).collect();
+        let largest = |terms: &Terms| terms.iter().map(|(_, a)| a.abs()).fold(0.0, f64::max);
+        let most = equations.iter().map(largest).fold(0.0, f64::max);
+        equations.iter_mut().filter(|terms| largest(terms) <= ROUNDING * most).for_each(Vec::clear);
+        equations.into_iter()
+    }
+
     /// Checks the arrays against a host of `size` degrees of freedom, and makes rows of them in which dependent
     /// ones are replaced.
     ///
@@ -107,8 +116,8 @@ impl ContactPairs<'_> {
                 ));
             }
         }
-        let places = (0..self.count).flat_map(|pair| (0..self.dim).map(move |axis| (pair, axis)));
-        let equations = places.map(|(pair, axis)| dependents.replaced(self.terms(pair, axis)));
+        let equations = (0..self.count).flat_map(|pair| self.equations(pair));
+        let equations = equations.map(|terms| dependents.replaced(terms));
         Ok(Rows::new(self.dim, equations.collect(), self.slaves))
     }
 

@@ -237,7 +237,9 @@ impl PairArrays {
             let (node, turn) = images.of(node);
             for axis in 0..dim {
                 let moved = turn * vector3::axis(axis);
-                let vector = weight * without(moved, held);
+                // What is left of a direction that is held is rounding, which is not to pass for a motion.
+                let free = without(moved, held).map(|part| without_rounding(part, 1.0));
+                let vector = weight * free;
                 self.masters.push(dofs.along(axis, node, dim));
                 self.vectors.extend(&vector.as_slice()[..dim]);
             }

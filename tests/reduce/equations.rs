@@ -6,7 +6,7 @@ use crate::constrained::{Constrained, EquationArrays, Terms, close, solved};
 use crate::rows::springs;
 use fastrand::Rng;
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
-use signorini::{Argument, Error, Model, Settings};
+use signorini::{Argument, Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 /// A structure with equations in chains, some without terms, whose rows have a degree of freedom of their own each,
 /// and others.
@@ -193,6 +193,35 @@ impl Small {
             ..ContactPairs::default()
         };
         Model::sparse(&matrix, &self.fixed, &pairs)
+    }
+}
+
+/// A direction along which a row moves by rounding beside its others, as what is left of a plane of symmetry, is one along
+/// which nothing moves: springs of 2e31 there would hide all forces.
+#[test]
+fn a_direction_of_rounding_does_not_move() {
+    let normal = |rest: f64| {
+        let rows = vec![vec![(0, vec![rest, 1.0]), (1, vec![-0.3 * rest, -1.0])]];
+        Small { rows, equations: vec![], fixed: vec![] }.model().unwrap()
+    };
+    let load = [-2e-3, 1e-3];
+    let solved = |model: &Model| {
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap: &[0.0],
+            law: FrictionLaw::Coulomb(&[0.3]),
+            reference_slip: None,
+        };
+        let settings = Settings::default();
+        model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
+    };
+    let [exact, rounded] = [0.0, 3e-16].map(|rest| solved(&normal(rest)));
+    // Springs of 2 and 3, alone, would be at -1e-3 and 1/3e-3; in a row they have a stiffness of 6/5. To rounding of 1e-3.
+    for solution in [exact, rounded] {
+        assert_eq!(solution.status, Status::Solved);
+        let force = &solution.certificate.force;
+        assert!((force[0] + 1.6e-3).abs() < 1e-17 && force[1] == 0.0, "{force:?}");
     }
 }
 
