@@ -3,21 +3,23 @@
 //!
 //! In the plane tangents of chords, each by the inverse of its length: exact on a circle, whatever the divisions. In space a
 //! quadric by least squares through the node, over the faces around it and, of linear ones or if they have few nodes, those
-//! around these, in the frame of the normal, twice. Products with the height make it exact on spheres, cylinders and cones;
-//! faces with mid nodes, which are near their shape as they are, have that of the height with itself alone. Neither looks
-//! across an edge at which faces turn sharply. Images beyond planes of symmetry and boundaries of sectors
+//! around these, in the frame of the normal, twice. Products with the height make it exact on spheres,
+//! cylinders and cones; faces with mid nodes, which are near their shape as they are, have that of the height with itself
+//! alone. Neither looks across an edge at which faces turn sharply. Images beyond planes of symmetry and boundaries of sectors
 //! count as in the whole body.
 
 use std::collections::{BTreeSet, HashMap};
+use std::f64::consts::SQRT_2;
+
+use nalgebra::{DMatrix, DVector};
 
 use super::face::Face;
-use super::mesh::Side;
+use super::mesh::{ON_PLANE, Side};
 use super::normals::direction;
 use super::plane;
 use super::shape::MOST_NODES;
 use super::watch::Watch;
 use crate::error::Error;
-use crate::linalg::least_squares::least_squares;
 use crate::linalg::vector3::{Vector3, axis, unit};
 use crate::problem::Islands;
 
@@ -27,6 +29,10 @@ const SMOOTH: f64 = 0.82;
 
 /// Fewer nodes than this around a node determine a quadric badly.
 const FEW: usize = 9;
+
+/// How dear slopes, and products with heights, are beside squares: nodes at the end of a patch have three places along an axis,
+/// through which squares alone lead to the right slope, and those in one layer do not tell of a slope across it.
+const DEAR: [f64; 2] = [3.0, 30.0];
 
 /// Fits, each in the frame of the normal before.
 const TURNS: usize = 2;
@@ -132,8 +138,9 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
             near = ring(surface, &near);
         }
         near.remove(&node);
-        let from: Vec<Vector3> =
-            near.iter().map(|&other| side.position(other) - side.position(node)).collect();
+        let from = near.iter().map(|&other| side.position(other) - side.position(node));
+        // Two nodes may stand at one place.
+        let from: Vec<Vector3> = from.filter(|x| *x != Vector3::zeros()).collect();
         normals.insert((surface, node), fit(mean(side, faces, node), &from, is_linear));
     }
     let of_face = |(at, &surface): (usize, &usize)| {
@@ -158,23 +165,52 @@ fn mean(side: &Side<'_>, faces: &[usize], node: usize) -> Vector3 {
 
 /// The normal of the quadric through the origin that is nearest to some places; the given one if they tell of another side.
 fn fit(mean: Vector3, places: &[Vector3], is_linear: bool) -> Vector3 {
-    let size = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    let weights: Vec<f64> = places.iter().map(|x| size / x.norm()).collect();
     let mut normal = mean;
     for _ in 0..TURNS {
         let across = plane::tangents(3, normal);
-        let along = |t: &Vector3| places.iter().map(|x| t.dot(x) / size).collect::<Vec<f64>>();
-        let [a, b, height] = [&across[0], &across[1], &normal].map(along);
-        let product =
-            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
-        let flat = [(&a, &a), (&a, &b), (&b, &b), (&height, &height)];
-        let leaning = [(&a, &height), (&b, &height)];
-        let leaning = leaning.into_iter().filter(|_| is_linear && places.len() > FEW);
-        let products = flat.into_iter().chain(leaning).map(|(a, b)| product(a, b));
-        let columns = [a.clone(), b.clone()].into_iter().chain(products);
-        let columns = columns.map(|column| product(&column, &weights));
-        let slopes = least_squares(columns, &product(&height, &weights));
+        let slopes = slopes(places, [across[0], across[1], normal], is_linear);
         normal = unit(normal - slopes[0] * across[0] - slopes[1] * across[1]).unwrap_or(normal);
     }
     if normal.dot(&mean) > SMOOTH { normal } else { mean }
+}
+
+/// The slopes along two axes of the quadric that is nearest to places. These may leave one free: a pair of planes holds the nodes of
+/// one layer of faces around a cylinder or a cone. Then it is the one of least coefficients, with heights in a unit of their own;
+/// its choice does not depend on how the axes are turned.
+fn slopes(places: &[Vector3], axes: [Vector3; 3], is_linear: bool) -> [f64; 2] {
+    let count = places.len();
+    let along = axes.map(|axis| DVector::from_iterator(count, places.iter().map(|x| axis.dot(x))));
+    let [wide, high] = [&along[..2], &along[2..]].map(|of| {
+        (of.iter().map(|lengths| lengths.norm_squared()).sum::<f64>() / count as f64).sqrt()
+    });
+    if high == 0.0 {
+        return [0.0; 2];
+    }
+    let [a, b, height] = [&along[0] / wide, &along[1] / wide, &along[2] / high];
+    let weights = DVector::from_iterator(count, places.iter().map(|x| 1.0 / x.norm()));
+    let product = |(a, b): (&DVector<f64>, &DVector<f64>), by: f64| {
+        by * a.component_mul(b).component_mul(&weights)
+    };
+    let [of_slope, of_height] = DEAR.map(|dear| 1.0 / dear);
+    let mut columns = vec![
+        of_slope * a.component_mul(&weights),
+        of_slope * b.component_mul(&weights),
+        product((&a, &a), 1.0),
+        product((&b, &b), 1.0),
+        product((&a, &b), SQRT_2),
+        product((&height, &height), of_height),
+    ];
+    if is_linear {
+        columns.extend([&a, &b].map(|a| product((a, &height), SQRT_2 * of_height)));
+    }
+    let columns = DMatrix::from_columns(&columns);
+    let factors = columns.clone().svd(true, true);
+    let least = ON_PLANE * factors.singular_values.max();
+    let solved =
+        |right: &DVector<f64>| factors.solve(right, least).expect("both factors are there");
+    let heights = height.component_mul(&weights);
+    let first = solved(&heights);
+    // Columns that are nearly dependent have left rounding, which a second solution takes out.
+    let found = &first + solved(&(heights - columns * &first));
+    [0, 1].map(|k| of_slope * found[k] * high / wide)
 }

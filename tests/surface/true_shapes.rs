@@ -163,6 +163,39 @@ fn fitted_triangles_follow_a_cylinder() {
     }
 }
 
+/// One layer of linear faces around a cylinder, however it is turned: its nodes stand on two circles, which a pair of planes holds
+/// too, so that they lie on many quadrics. To what triangles of this size leave.
+#[test]
+fn one_layer_of_faces_follows_a_cylinder() {
+    let rng = &mut Rng::with_seed(18);
+    let step = TAU / 64.0;
+    for (shape, tilt) in
+        [Shape::Q4, Shape::T3].into_iter().flat_map(|s| [0.0, 1e-4, 0.7].map(|t| (s, t)))
+    {
+        let around = |radius: f64| {
+            move |[angle, along, _]: Point| {
+                let [x, y, z] = [radius * angle.sin(), along, radius * angle.cos()];
+                let [sin, cos] = [f64::sin(tilt), f64::cos(tilt)];
+                [cos * x - sin * y, sin * x + cos * y, z]
+            }
+        };
+        let mut sheet = |half: f64, along: [f64; 2]| {
+            let sides = [[-half * step, half * step], along];
+            Sheet::rectangle(shape, [2 * half as usize, 1], sides, (0.0, rng))
+        };
+        let (inner, outer) = (sheet(12.0, [0.0, 0.5]), sheet(14.0, [-0.1, 0.6]));
+        let (inner, outer) =
+            (inner.mapped(around(1.0)), outer.turned().mapped(around(1.0 + APART)));
+        let sheets = TwoSheets::new(3, inner, outer);
+        let shapes = [TrueShape::Fitted; 2];
+        let found = sheets.pair(&SurfaceSettings { shapes, ..Default::default() }).unwrap();
+        // Away from the ends, where there are nodes on both sides.
+        for pair in found.pairs.iter().filter(|pair| pair.point[2] > (8.0 * step).cos()) {
+            assert!((pair.gap - APART).abs() < 1e-6, "{shape:?}, {tilt}: {}", pair.gap);
+        }
+    }
+}
+
 /// Distorted faces of every kind on every shape, at 60 divisions of the smaller radius: curved, linear ones are nearer to it
 /// by a factor of 20 at least, and quadratic ones, which are near it as they are, are not twice as far.
 #[test]
