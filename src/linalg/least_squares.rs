@@ -1,5 +1,7 @@
 //! Small least-squares problems: a few columns, of which some may depend on others.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::gmres::{orthogonalised, solve_triangle};
 use super::tolerances::ROUNDING;
 
@@ -10,6 +12,22 @@ const DEPENDENT: f64 = 1e-6;
 pub fn least_squares(columns: impl Iterator<Item = Vec<f64>>, target: &[f64]) -> Vec<f64> {
     let columns = Columns::new(columns, DEPENDENT);
     columns.coefficients(columns.take_out(&mut target.to_vec()))
+}
+
+/// Of all coefficients by which columns come nearest to a target those whose sum of squares is least. What changes a sum of
+/// columns by less than this part of the most counts as nothing.
+pub fn least_coefficients(columns: &[Vec<f64>], target: &[f64], part: f64) -> Vec<f64> {
+    let column = |column: &Vec<f64>| DVector::from_column_slice(column);
+    let columns = DMatrix::from_columns(&columns.iter().map(column).collect::<Vec<_>>());
+    let factors = columns.clone().svd(true, true);
+    let least = part * factors.singular_values.max();
+    let solved =
+        |right: &DVector<f64>| factors.solve(right, least).expect("both factors are there");
+    let target = DVector::from_column_slice(target);
+    let first = solved(&target);
+    // Columns that are nearly dependent have left rounding, which a second solution takes out.
+    let found = &first + solved(&(target - columns * &first));
+    found.as_slice().to_vec()
 }
 
 /// Columns as an orthonormal basis `C` times a triangle `R`.

@@ -11,8 +11,6 @@
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::SQRT_2;
 
-use nalgebra::{DMatrix, DVector};
-
 use super::face::Face;
 use super::mesh::{ON_PLANE, Side};
 use super::normals::direction;
@@ -20,6 +18,8 @@ use super::plane;
 use super::shape::MOST_NODES;
 use super::watch::Watch;
 use crate::error::Error;
+use crate::linalg::least_squares::least_coefficients;
+use crate::linalg::vector::norm;
 use crate::linalg::vector3::{Vector3, axis, unit};
 use crate::problem::Islands;
 
@@ -178,39 +178,32 @@ fn fit(mean: Vector3, places: &[Vector3], is_linear: bool) -> Vector3 {
 /// one layer of faces around a cylinder or a cone. Then it is the one of least coefficients, with heights in a unit of their own;
 /// its choice does not depend on how the axes are turned.
 fn slopes(places: &[Vector3], axes: [Vector3; 3], is_linear: bool) -> [f64; 2] {
-    let count = places.len();
-    let along = axes.map(|axis| DVector::from_iterator(count, places.iter().map(|x| axis.dot(x))));
-    let [wide, high] = [&along[..2], &along[2..]].map(|of| {
-        (of.iter().map(|lengths| lengths.norm_squared()).sum::<f64>() / count as f64).sqrt()
-    });
+    let along = axes.map(|axis| places.iter().map(|x| axis.dot(x)).collect::<Vec<f64>>());
+    let each = (places.len() as f64).sqrt();
+    let size = |of: &[Vec<f64>]| of.iter().map(|x| norm(x) / each).fold(0.0, f64::hypot);
+    let [wide, high] = [size(&along[..2]), size(&along[2..])];
     if high == 0.0 {
         return [0.0; 2];
     }
-    let [a, b, height] = [&along[0] / wide, &along[1] / wide, &along[2] / high];
-    let weights = DVector::from_iterator(count, places.iter().map(|x| 1.0 / x.norm()));
-    let product = |(a, b): (&DVector<f64>, &DVector<f64>), by: f64| {
-        by * a.component_mul(b).component_mul(&weights)
+    let [a, b, height] = [(0, wide), (1, wide), (2, high)]
+        .map(|(k, size)| along[k].iter().map(|x| x / size).collect::<Vec<f64>>());
+    let column = |a: &[f64], b: &[f64], by: f64| {
+        let values = places.iter().zip(a).zip(b);
+        values.map(|((x, a), b)| by * a * b * (wide / x.norm())).collect::<Vec<f64>>()
     };
+    let ones = vec![1.0; places.len()];
     let [of_slope, of_height] = DEAR.map(|dear| 1.0 / dear);
     let mut columns = vec![
-        of_slope * a.component_mul(&weights),
-        of_slope * b.component_mul(&weights),
-        product((&a, &a), 1.0),
-        product((&b, &b), 1.0),
-        product((&a, &b), SQRT_2),
-        product((&height, &height), of_height),
+        column(&a, &ones, of_slope),
+        column(&b, &ones, of_slope),
+        column(&a, &a, 1.0),
+        column(&b, &b, 1.0),
+        column(&a, &b, SQRT_2),
+        column(&height, &height, of_height),
     ];
     if is_linear {
-        columns.extend([&a, &b].map(|a| product((a, &height), SQRT_2 * of_height)));
+        columns.extend([&a, &b].map(|a| column(a, &height, SQRT_2 * of_height)));
     }
-    let columns = DMatrix::from_columns(&columns);
-    let factors = columns.clone().svd(true, true);
-    let least = ON_PLANE * factors.singular_values.max();
-    let solved =
-        |right: &DVector<f64>| factors.solve(right, least).expect("both factors are there");
-    let heights = height.component_mul(&weights);
-    let first = solved(&heights);
-    // Columns that are nearly dependent have left rounding, which a second solution takes out.
-    let found = &first + solved(&(heights - columns * &first));
+    let found = least_coefficients(&columns, &column(&height, &ones, 1.0), ON_PLANE);
     [0, 1].map(|k| of_slope * found[k] * high / wide)
 }

@@ -136,13 +136,15 @@ impl Images {
         self.second.iter().copied()
     }
 
-    /// Takes in the images of another zone of the same host, and returns the numbers that they have here, in their order.
+    /// Takes in the images of another zone of the same host, within so much of the origin, and returns the numbers that they
+    /// have here, in their order.
     ///
     /// # Errors
     /// They are those of another sector, or of a host with another number of nodes.
-    pub(super) fn join(&mut self, other: &Images) -> Result<Vec<usize>, ()> {
-        let is_other_sector =
-            self.are_of_sector() && other.are_of_sector() && self.sector != other.sector;
+    pub(super) fn join(&mut self, other: &Images, size: f64) -> Result<Vec<usize>, ()> {
+        let is_other_sector = self.are_of_sector()
+            && other.are_of_sector()
+            && !self.to_second().is(&other.to_second(), size);
         let is_other_host =
             !self.list.is_empty() && !other.list.is_empty() && self.nodes != other.nodes;
         if is_other_sector || is_other_host {
@@ -161,7 +163,7 @@ impl Images {
         let mut known: HashMap<_, _> = (self.list.iter().copied()).zip(self.nodes..).collect();
         let numbers = other.list.iter().map(|&(place, node)| {
             let motion = other.places[place];
-            let same = self.places.iter().position(|known| *known == motion);
+            let same = self.places.iter().position(|known| known.is(&motion, size));
             let image = (same.unwrap_or_else(|| self.add_motion(motion)), node);
             *known.entry(image).or_insert_with(|| self.add(image))
         });

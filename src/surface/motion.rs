@@ -1,5 +1,6 @@
 //! Motions that lay a body upon its image: turns about an axis, mirror images, and both one after the other.
 
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector3::{Matrix3, Vector3};
 
 /// `x -> Q x + shift` with an orthogonal `Q`, in the host's unit of length.
@@ -35,6 +36,12 @@ impl Motion {
     /// Another motion, and then this one.
     pub(super) fn after(&self, first: &Motion) -> Motion {
         Motion { turn: self.turn * first.turn, shift: self.of(first.shift) }
+    }
+
+    /// `true` if it is another one but for rounding, on bodies within so much of the origin.
+    pub(super) fn is(&self, other: &Motion, size: f64) -> bool {
+        let turned = (self.turn - other.turn).amax();
+        size * turned + (self.shift - other.shift).amax() <= ROUNDING_OF_SUM * size
     }
 
     /// `true` of one that turns faces over.

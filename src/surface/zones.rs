@@ -50,10 +50,13 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     let mut starts = vec![0];
     // The places of the pairs of a node.
     let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
+    let points = zones.iter().flat_map(|zone| &zone.contact.pairs).map(|pair| pair.point);
+    let size = points.flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
     for ContactZone { name, contact, .. } in zones {
-        let numbers = joined.images.join(&contact.images).map_err(|_| {
+        let numbers = joined.images.join(&contact.images, size).map_err(|_| {
             let message = format!(
-                "zone '{name}' is in another sector than zone '{}', or of another mesh",
+                "zone '{name}' is in another sector than zone '{}', or of another mesh: give all zones the same axis and number \
+                 of sectors, and pair them on one mesh",
                 zones[0].name
             );
             Error::invalid(Argument::Pairs, message)
