@@ -50,9 +50,10 @@ pub struct SignoriniSurfaceSettings {
     /// Default 0. Then surfaces overlap by the size of the largest slave face at most, the largest
     /// distance of two of its nodes, and not through the body behind the slave face. Open surfaces
     /// are paired up to that size too, or if that is larger to the radius of the smaller side, the
-    /// largest distance of a node from the mean of its nodes: half the diagonal of a rectangle. Of
-    /// masters behind each other the nearest counts, and over a step or an edge of the master the
-    /// nearer part alone. An obstacle without faces has no limit.
+    /// largest distance of a node from the mean of its nodes, with mirror images and all sectors:
+    /// half the diagonal of a rectangle. Of masters behind each other the nearest counts, and over
+    /// a step or an edge of the master the nearer part alone. An obstacle without faces has no
+    /// limit.
     pub search_distance: f64,
     /// Number of the first node, degree of freedom and entry of start, 0 or 1, here and in the
     /// pairs; default 0. Take that of your matrix.
@@ -62,9 +63,11 @@ pub struct SignoriniSurfaceSettings {
     pub dofs_per_node: i32,
     /// Displacements of each node, dim for each; default NULL: dofs_per_node * node + axis.
     pub node_dofs: *const i64,
-    /// Number of planes of symmetry of a half or quarter model; default 0. A pair whose slave node
-    /// stands on one neither moves nor carries a force across it, and its normal is in the plane.
-    /// Fix the nodes on the plane across it as without contact.
+    /// Number of planes of symmetry of a half or quarter model; default 0. Pairs see the mirror
+    /// images of both sides, and are those of the whole body. A pair whose slave node stands on a
+    /// plane neither moves nor carries a force across it, and its normal is in the plane. Fix the
+    /// nodes on the plane across it as without contact. Where a row reaches beyond a plane, and in
+    /// sectors, rows have row_vectors, not row_weights.
     pub symmetry_planes: i64,
     /// The axis across each plane, counted from index_base.
     pub symmetry_axes: *const i32,

@@ -67,11 +67,12 @@ pub struct SurfaceSettings {
     /// The largest distance along the normal at which surfaces are paired, open or overlapping. `None`: overlapping ones up
     /// to the size of the largest slave face, the largest distance of two of its nodes, and not through the body behind the
     /// slave face; open ones up to that size too, or if that is larger to the radius of the smaller side, the largest distance
-    /// of a node from the mean of all of its nodes, and of masters behind each other the nearest; against an obstacle without
-    /// faces no limit. Over a step or an edge of the master a slave face is paired with the nearer part alone.
+    /// of a node from the mean of all of its nodes, with mirror images and all sectors, and of masters behind each other the
+    /// nearest; against an obstacle without faces no limit. Over a step or an edge of the master a slave face is paired with the nearer part alone.
     pub search_distance: Option<f64>,
-    /// Planes of symmetry of half and quarter models. A pair whose slave node stands on one neither moves nor carries
-    /// a force across it, as in the whole body, and its normal is in the plane.
+    /// Planes of symmetry of half and quarter models. Pairs see the mirror images of both sides, and are those of the whole
+    /// body. A pair whose slave node stands on a plane neither moves nor carries a force across it, and its normal is in the
+    /// plane.
     pub symmetry: Vec<SymmetryPlane>,
     /// The sector of a body that repeats about an axis, whose nodes on the second boundary are images of those on the first.
     /// Pairs see the neighbours, and are those of the whole body: of two nodes that are images of each other the first has the
