@@ -11,7 +11,7 @@ use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, grid, pair, unlimited};
 use fastrand::Rng;
 use signorini::reduce::ContactPairs;
 use signorini::surface::{
-    Normals, PairResults, Pairing, Rims, SurfacePairs, SurfaceSettings, SymmetryPlane,
+    Normals, PairResults, Pairing, Rims, SurfacePair, SurfacePairs, SurfaceSettings, SymmetryPlane,
 };
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 
@@ -442,6 +442,66 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
     }
 }
 
+/// A hollow slave looks across the plane: a notch above a wedge, apart. Pairs of the half are those of the whole, on which it stands
+/// twice, with their gaps; and they feel what they feel there, if both sides of the whole move as mirror images.
+#[test]
+fn a_hollow_slave_looks_across_the_plane() {
+    let (slope, apart) = (0.5, 0.4);
+    let line = |count: usize, end: f64, top: f64| -> Vec<Point> {
+        let x = (0..=count).map(|i| end * i as f64 / count as f64);
+        x.map(|x| [x, top - slope * x, 0.0]).collect()
+    };
+    let (notch, wedge) = (line(6, 1.0, 1.0), line(5, 1.2, 1.0 - apart));
+    // The notch's body is above, and to the left of lines that run to the left; the wedge's is below.
+    let slave = (0..6).map(|i| vec![i, i + 1]).collect();
+    let master = (7..12).map(|i| vec![i + 1, i]).collect();
+    let part =
+        Bodies { dim: 2, nodes: [notch, wedge].concat(), entries: vec![], faces: [slave, master] };
+    let whole = part.reflected(0);
+    let rng = &mut Rng::with_seed(26);
+    let moved: Vec<[f64; 2]> = (0..part.nodes.len())
+        .map(|node| [if part.nodes[node][0] == 0.0 { 0.0 } else { rng.f64() }, rng.f64()])
+        .collect();
+    let felt = |bodies: &Bodies, symmetry: Vec<SymmetryPlane>| {
+        let settings = SurfaceSettings { symmetry, ..Default::default() };
+        let found =
+            pair(2, &bodies.nodes, bodies.faces.each_ref().map(|f| &f[..]), &settings).unwrap();
+        // By places: a mirror image moves as its node does, but for the sign along x.
+        let motion = |node: usize| {
+            let [x, y, _] = bodies.nodes[node];
+            let own = part.nodes.iter().position(|p| p[0] == x.abs() && p[1] == y).unwrap();
+            [moved[own][0] * x.signum(), moved[own][1]]
+        };
+        let rows = found.rows();
+        let each = if rows.vectors.is_empty() { 2 } else { 1 };
+        let of_pair = |(j, pair): (usize, &SurfacePair)| {
+            let mut d = [0.0; 2];
+            for k in rows.master_start[j]..rows.master_start[j + 1] {
+                for axis in 0..each {
+                    let dof = rows.masters[each * k + axis];
+                    let u = motion(dof / 2)[dof % 2];
+                    let vector = match each {
+                        1 => [rows.vectors[2 * k], rows.vectors[2 * k + 1]],
+                        _ => [0, 1].map(|c| if c == axis { rows.weights[k] } else { 0.0 }),
+                    };
+                    (0..2).for_each(|c| d[c] += vector[c] * u);
+                }
+            }
+            (pair.slave, pair.gap, d)
+        };
+        found.pairs.iter().enumerate().map(of_pair).collect::<Vec<_>>()
+    };
+    let of_part = felt(&part, vec![SymmetryPlane::across(0, 0.0)]);
+    let of_whole = felt(&whole, vec![]);
+    assert_eq!(of_part.len(), 7);
+    for ((node, gap, d), (same, other_gap, other)) in of_part.iter().zip(&of_whole) {
+        assert_eq!(node, same);
+        // To rounding of coordinates and displacements of the size one.
+        let apart = [gap - other_gap, d[0] - other[0], d[1] - other[1]];
+        assert!(largest(&apart) < 1e-13, "{node}: {apart:?}");
+    }
+}
+
 /// Planes that cannot be: each with what to do.
 #[test]
 fn wrong_planes_are_refused() {
@@ -464,6 +524,12 @@ fn wrong_planes_are_refused() {
             assert!(error.contains(sentence), "{error}");
         }
     }
+    // A corner stands on two planes, of which no whole body has images: their angle, 0.3, is no part of a half turn.
+    let skewed = SymmetryPlane { normal: [f64::sin(0.3), f64::cos(0.3), 0.0], at: 0.0 };
+    let symmetry = vec![SymmetryPlane::across(0, 0.0), skewed];
+    let error = sheets.pair(&SurfaceSettings { symmetry, ..SurfaceSettings::default() });
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("an angle of which half a turn is no multiple"), "{error}");
     // A plane that the surface does not meet changes nothing: another contact zone may.
     let symmetry = vec![SymmetryPlane::across(0, -1.0)];
     let mut far = sheets.pair(&SurfaceSettings { symmetry, ..SurfaceSettings::default() }).unwrap();
