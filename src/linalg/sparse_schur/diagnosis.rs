@@ -1,6 +1,6 @@
 //! A factorisation that names the motion which makes it fail.
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::numeric::{Numeric, factorised};
 use super::schedule::Schedule;
 use super::solve;
@@ -34,7 +34,7 @@ pub fn diagnosed(
     if let Some((place, pivot)) = numeric.weakest
         && (singular || pivot < SUSPICIOUS_PIVOT)
     {
-        let goes_on = &mut || progress(FactorStep::HasDone(1.0)).is_ok();
+        let goes_on = &mut || progress(1.0).is_ok();
         let Some(vector) = weakest_motion(structure, &values, place, goes_on) else {
             return Err(Failure::Stopped);
         };

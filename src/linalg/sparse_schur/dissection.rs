@@ -3,7 +3,7 @@
 //! A piece of the graph is parted by a separator ([`super::separator`]), which stands behind its parts in the order, and so
 //! are these. Small pieces are ordered by minimum degree.
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure, Stopped};
+use super::factor_progress::{FactorProgress, Failure};
 use super::links::Links;
 use super::minimum_degree::minimum_degree;
 use super::separator::separator;
@@ -28,7 +28,7 @@ pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<
     // From the last vertex of the order to the first: a separator stands behind its parts.
     let mut backwards = Vec::new();
     while let Some(piece) = open.pop() {
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let last = match piece.separator(progress)? {
             Some(separator) => {
                 open.extend(piece.without(&separator));
@@ -44,7 +44,7 @@ pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<
 
 impl Piece {
     /// A separator; `None` of a small piece, or if none is found.
-    fn separator(&self, progress: &mut FactorProgress<'_>) -> Result<Option<Vec<usize>>, Stopped> {
+    fn separator(&self, progress: &mut FactorProgress<'_>) -> Result<Option<Vec<usize>>, Failure> {
         if self.vertex.len() < SMALL {
             return Ok(None);
         }
@@ -74,7 +74,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::{Links, Piece, SMALL, dissected};
-    use crate::linalg::sparse_schur::factor_progress::{Failure, Stopped};
+    use crate::linalg::sparse_schur::factor_progress::Failure;
     use crate::linalg::sparse_schur::separator::tests::strip;
 
     /// Seven paths along the strip share no vertex, so that a separator has at least seven (Menger); a column of the
@@ -109,7 +109,7 @@ mod tests {
             let mut asked = 0;
             let result = dissected(strip(2000, 9), &mut |_| {
                 asked += 1;
-                if asked < most { Ok(()) } else { Err(Stopped) }
+                if asked < most { Ok(()) } else { Err(Failure::Stopped) }
             });
             (result, asked)
         };

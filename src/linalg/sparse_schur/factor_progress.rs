@@ -3,21 +3,9 @@
 use crate::linalg::free_motions::StiffnessDefect;
 use crate::linalg::sparse_matrix::OutOfMemory;
 
-/// The caller's answer that ends the work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stopped;
-
-/// A question whether a factorisation goes on.
-#[derive(Clone, Copy, Debug)]
-pub enum FactorStep {
-    /// A long part begins that needs so many bytes of memory in all, those of its arguments included.
-    Needs(u64),
-    /// Between two steps: this share of the work is done, 0 before anything is known of it.
-    HasDone(f64),
-}
-
-/// Is told the memory and the progress of a factorisation, and may end it.
-pub type FactorProgress<'a> = dyn FnMut(FactorStep) -> Result<(), Stopped> + 'a;
+/// Is told between two steps of a factorisation which share of its work is done, 0 before anything is known of it, and may
+/// end it by [`Failure::Stopped`].
+pub type FactorProgress<'a> = dyn FnMut(f64) -> Result<(), Failure> + 'a;
 
 /// Why a matrix was not factorised.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +30,6 @@ impl From<StiffnessDefect> for Failure {
             StiffnessDefect::Indefinite(motion) => Failure::Negative(motion),
             StiffnessDefect::Unclear(motion) => Failure::Unclear(motion),
         }
-    }
-}
-
-impl From<Stopped> for Failure {
-    fn from(_: Stopped) -> Self {
-        Failure::Stopped
     }
 }
 

@@ -4,7 +4,7 @@
 
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::links::Links;
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 use crate::shortage;
@@ -32,9 +32,9 @@ impl Graph {
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let unknowns = Adjacency::of_unknowns(lower)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let (vertex, member_start, member) = together(&unknowns, eliminated)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let inner = member_start.partition_point(|&start| start < eliminated);
         let count = member_start.len() - 1;
         let mut start = reserved(count + 1)?;

@@ -25,6 +25,6 @@ mod separator;
 mod solve;
 mod structure;
 
-pub use factor_progress::{FactorProgress, FactorStep, Failure, Stopped};
+pub use factor_progress::{FactorProgress, Failure};
 pub use plan::{Plan, Values};
 pub use schur::SparseSchur;

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::sync::Mutex;
 
 use super::entries::Entries;
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::graph::filled;
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
@@ -49,16 +49,16 @@ pub fn factorised(
     let (kept, mut schur) = (structure.kept(), Vec::new());
     clear(values, structure.stored(), progress)?;
     clear(&mut schur, kept * kept, progress)?;
-    progress(FactorStep::HasDone(0.0))?;
+    progress(0.0)?;
     let entries = &Entries::new(structure, lower, &mut schur)?;
-    progress(FactorStep::HasDone(0.0))?;
+    progress(0.0)?;
     let parallel = &mut Parallel::new(structure, progress, schedule.operations)?;
     let source = Source { structure, schedule, entries };
     let below = subtrees(source, values, parallel)?;
     let above = above(source, values, parallel)?;
     schur_update::subtract(structure, values, &mut schur, parallel)?;
     mirror(&mut schur, kept);
-    progress(FactorStep::HasDone(1.0))?;
+    progress(1.0)?;
     let weakest = weaker(below, above);
     Ok(Numeric { schur, weakest })
 }
@@ -72,7 +72,7 @@ fn clear(
     numbers.clear();
     numbers.try_reserve_exact(length).map_err(|_| OutOfMemory)?;
     while numbers.len() < length {
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         numbers.resize(length.min(numbers.len() + CLEARED), 0.0);
     }
     Ok(())

@@ -12,7 +12,7 @@ use faer::sparse::linalg::cholesky::simplicial::{
 use faer::sparse::linalg::qr::{postorder, postorder_scratch};
 
 use super::dissection::dissected;
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::graph::{Graph, filled, reserved};
 use super::links::Links;
 use super::minimum_degree::minimum_degree;
@@ -45,13 +45,13 @@ pub fn chosen(
         return Ok(examined(graph, &order)?.0);
     }
     let order = with_clique(graph)?;
-    progress(FactorStep::HasDone(0.0))?;
+    progress(0.0)?;
     let (order, operations) = examined(graph, &order)?;
     if operations <= OPERATIONS_PER_VERTEX * graph.inner as f64 {
         return Ok(order);
     }
     let dissected = dissected(inner_links(graph), progress)?;
-    progress(FactorStep::HasDone(0.0))?;
+    progress(0.0)?;
     let (dissected, fewer) = examined(graph, &dissected)?;
     Ok(if fewer < operations { dissected } else { order })
 }

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use faer::dyn_stack::MemBuffer;
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::graph::filled;
 use super::structure::{PANEL, Structure};
 use crate::linalg::dense;
@@ -58,7 +58,7 @@ impl<'w> Parallel<'w> {
             let so_far = *done + share * operations;
             if so_far - *asked >= WORK as f64 {
                 *asked = so_far;
-                answer = progress(FactorStep::HasDone((so_far / *all).min(1.0)));
+                answer = progress((so_far / *all).min(1.0));
             }
             answer.is_ok()
         };
@@ -68,7 +68,7 @@ impl<'w> Parallel<'w> {
         };
         share(parts, operations, &work, &mut go_on);
         *done += operations;
-        Ok(answer?)
+        answer
     }
 
     /// The working memory of the calling thread, between two works.

@@ -1,7 +1,7 @@
 //! The factor of the eliminated rows, and the Schur complement of the others.
 
 use super::diagnosis::diagnosed;
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::numeric::Numeric;
 use super::plan::Plan;
 use super::solve;
@@ -29,22 +29,9 @@ pub struct SparseSchur {
 }
 
 impl SparseSchur {
-    /// Factorises the symmetric matrix whose lower triangle is `lower`, every diagonal entry stored.
-    /// The first `eliminated` rows are those of `A`. Free motions are looked for. `progress` is told the memory before
-    /// it is taken.
+    /// Factorises the symmetric matrix whose lower triangle is `lower`, every diagonal entry stored, and of which `plan` was
+    /// made. Free motions are looked for if `C` has few rows, if rounding may hide them, or `always`.
     pub fn new(
-        lower: Csc,
-        eliminated: usize,
-        progress: &mut FactorProgress<'_>,
-    ) -> Result<Self, Failure> {
-        let plan = Plan::new(&lower, eliminated, None, progress)?;
-        progress(FactorStep::Needs(plan.bytes))?;
-        Self::planned(plan, lower, true, progress)
-    }
-
-    /// Factorises the matrix of which `plan` was made. Free motions are looked for if `C` has few rows, if
-    /// rounding may hide them, or `always`.
-    pub fn planned(
         plan: Plan,
         mut lower: Csc,
         always: bool,
@@ -67,10 +54,8 @@ impl SparseSchur {
             false => Doubt::of(least, &units, |i| found.schur[i + m * i]),
         };
         if let Some(doubt) = doubt {
-            found.settle(lower, (&units, least, doubt), &mut || {
-                progress(FactorStep::HasDone(1.0)).is_ok()
-            })?;
-            progress(FactorStep::HasDone(1.0))?;
+            found.settle(lower, (&units, least, doubt), &mut || progress(1.0).is_ok())?;
+            progress(1.0)?;
         }
         Ok(found)
     }

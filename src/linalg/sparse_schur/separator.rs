@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
-use super::factor_progress::{FactorProgress, FactorStep, Stopped};
+use super::factor_progress::{FactorProgress, Failure};
 use super::links::Links;
 
 /// Halves that grow in the smallest graph, and how many of their separators are carried back.
@@ -25,11 +25,11 @@ pub fn separator(
     links: &Links,
     small: usize,
     progress: &mut FactorProgress<'_>,
-) -> Result<Option<Vec<usize>>, Stopped> {
+) -> Result<Option<Vec<usize>>, Failure> {
     let mut graph = Level::finest(links, small, progress)?;
     let mut finer: Vec<(Level<'_>, Vec<usize>)> = Vec::new();
     while graph.links.vertices() >= small {
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let (coarse, one) = graph.coarse();
         // A graph in which few vertices find another one becomes no smaller.
         let least = graph.links.vertices() / 10;
@@ -48,7 +48,7 @@ pub fn separator(
     let mut best: Option<(f64, Vec<usize>)> = None;
     for mut sides in grown.into_iter().take(CARRIED) {
         for (graph, one) in finer.iter().rev() {
-            progress(FactorStep::HasDone(0.0))?;
+            progress(0.0)?;
             let side = one.iter().map(|&v| sides.side[v]).collect();
             sides = Sides::refined(graph, side, progress)?;
         }
@@ -80,14 +80,14 @@ impl<'l> Level<'l> {
         links: &'l Links,
         small: usize,
         progress: &mut FactorProgress<'_>,
-    ) -> Result<Self, Stopped> {
+    ) -> Result<Self, Failure> {
         let mut strength = vec![1; links.neighbour.len()];
         let mut next = links.start.clone();
         // The last vertex whose neighbour this one is.
         let mut beside = vec![usize::MAX; links.vertices()];
         for v in 0..links.vertices() {
             if v.is_multiple_of(small) {
-                progress(FactorStep::HasDone(0.0))?;
+                progress(0.0)?;
             }
             links.neighbours(v).for_each(|w| beside[w] = v);
             for (k, w) in links.range(v).zip(links.neighbours(v)).filter(|&(_, w)| w > v) {
@@ -187,10 +187,10 @@ impl<'g> Sides<'g> {
         graph: &'g Level<'g>,
         side: Vec<usize>,
         progress: &mut FactorProgress<'_>,
-    ) -> Result<Self, Stopped> {
+    ) -> Result<Self, Failure> {
         let mut sides = Sides::new(graph, side);
         while sides.improve() {
-            progress(FactorStep::HasDone(0.0))?;
+            progress(0.0)?;
         }
         Ok(sides)
     }

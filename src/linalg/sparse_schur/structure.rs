@@ -4,7 +4,7 @@ use faer::MatRef;
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::supernodal;
 
-use super::factor_progress::{FactorProgress, FactorStep, Failure};
+use super::factor_progress::{FactorProgress, Failure};
 use super::graph::{Graph, reserved};
 use super::order::{Pattern, chosen, of_tree, pattern};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
@@ -48,15 +48,15 @@ impl Structure {
         given: Option<&[usize]>,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let graph = Graph::new(lower, eliminated, progress)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let order = chosen(&graph, given, progress)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let pattern = pattern(&graph, &order)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         let symbolic = symbolic(&pattern)?;
-        progress(FactorStep::HasDone(0.0))?;
+        progress(0.0)?;
         // Places of the unknowns of each vertex.
         let mut places = reserved(graph.vertices() + 1)?;
         let mut unknowns = reserved(lower.ncols())?;

@@ -15,7 +15,7 @@ use crate::linalg::congruence::congruence;
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
 };
-use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure};
+use crate::linalg::sparse_schur::{FactorProgress, Failure};
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
@@ -97,7 +97,7 @@ impl ChangeOfVariables {
         progress: &mut FactorProgress<'_>,
     ) -> Result<(Csc, Csc), Failure> {
         let host = with_springs(host, self.springs);
-        let goes_on = &mut || progress(FactorStep::HasDone(0.0)).is_ok();
+        let goes_on = &mut || progress(0.0).is_ok();
         congruence(host, &self.matrix, self.unknowns, goes_on)?.ok_or(Failure::Stopped)
     }
 

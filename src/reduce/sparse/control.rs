@@ -1,7 +1,7 @@
 //! The choices of a host for a reduction: its order of elimination, its threads, and whether to go on.
 
 use crate::error::{Argument, Error, entry, index};
-use crate::linalg::sparse_schur::{FactorStep, Stopped};
+use crate::linalg::sparse_schur::Failure;
 
 /// Is asked between steps whether to go on: the share of the work that is done, and the bytes that it needs
 /// in all, 0 before they are known.
@@ -32,19 +32,18 @@ impl<'a, 'b> Asked<'a, 'b> {
         Asked { ask, memory: 0, ended: None }
     }
 
-    /// Passes a question on.
-    pub(super) fn goes_on(&mut self, step: FactorStep) -> Result<(), Stopped> {
-        let share = match step {
-            FactorStep::HasDone(share) => share,
-            FactorStep::Needs(bytes) => {
-                self.memory = bytes;
-                0.0
-            }
-        };
+    /// Passes a question on: this share of the work is done.
+    pub(super) fn goes_on(&mut self, share: f64) -> Result<(), Failure> {
         (self.ask)(share, self.memory).map_err(|error| {
             self.ended = Some(error);
-            Stopped
+            Failure::Stopped
         })
+    }
+
+    /// Asks before a work begins that needs so many bytes in all.
+    pub(super) fn needs(&mut self, memory: u64) -> Result<(), Failure> {
+        self.memory = memory;
+        self.goes_on(0.0)
     }
 }
 

@@ -7,12 +7,13 @@
 use std::mem::take;
 use std::sync::{Mutex, PoisonError};
 
+use super::control::Asked;
 use crate::error::{Argument, Error};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
-use crate::linalg::sparse_schur::{FactorProgress, FactorStep, Failure, Plan, Stopped, Values};
+use crate::linalg::sparse_schur::{Failure, Plan, Values};
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, StiffnessOperator};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
@@ -47,16 +48,18 @@ impl FullSpace {
         matrix: Csc,
         inner: usize,
         dim: usize,
-        progress: &mut FactorProgress<'_>,
+        asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
-        let cholesky = Plan::new(&matrix, matrix.ncols(), None, progress)?;
-        progress(FactorStep::Needs(factor_bytes(&cholesky, &matrix)))?;
+        let cholesky = Plan::new(&matrix, matrix.ncols(), None, &mut |share| asked.goes_on(share))?;
+        asked.needs(factor_bytes(&cholesky, &matrix))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
         let (kept, last) = (Mutex::default(), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
-        let values = space.cholesky.definite(space.restricted(&held_set, 0.0), progress)?;
+        let values = space
+            .cholesky
+            .definite(space.restricted(&held_set, 0.0), &mut |share| asked.goes_on(share))?;
         let largest = space.units.iter().fold(0.0_f64, |most, unit| most.max(*unit));
         for unit in &mut space.units {
             *unit = if *unit > 0.0 { *unit } else { largest };
@@ -243,7 +246,7 @@ impl StiffnessOperator for InUse<'_> {
                 return Ok(false);
             }
             let matrix = self.space.restricted(held_set, soft);
-            let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Stopped) };
+            let asked = &mut |_| if goes_on() { Ok(()) } else { Err(Failure::Stopped) };
             let values = &mut self.factor.values;
             match self.space.cholesky.factor(&matrix, values, asked) {
                 Ok(true) => {

@@ -9,7 +9,7 @@ use super::messages;
 use super::supports::{self, FixedComponent};
 use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
-use crate::linalg::sparse_schur::{FactorStep, Failure, Plan, SparseSchur};
+use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, norm_inf};
 use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, StiffnessOperator};
@@ -74,7 +74,7 @@ impl SparseReduction {
         drop(rows);
         let mut asked = Asked::new(control.ask);
         let (transformed, of_fixed) =
-            variables.transform(host, &mut |step| asked.goes_on(step)).map_err(|failure| {
+            variables.transform(host, &mut |share| asked.goes_on(share)).map_err(|failure| {
                 asked.ended.take().unwrap_or_else(|| refused(&variables, own, failure))
             })?;
         let free = &variables.free;
@@ -254,11 +254,12 @@ impl Engine {
             return Err(Failure::OutOfMemory);
         }
         if has_room {
-            let progress = &mut |step| asked.goes_on(step);
-            let plan = Plan::new(&matrix, parts.inner, parts.rank, progress)?;
-            if progress(FactorStep::Needs(plan.bytes)).is_ok() {
+            let plan =
+                Plan::new(&matrix, parts.inner, parts.rank, &mut |done| asked.goes_on(done))?;
+            if asked.needs(plan.bytes).is_ok() {
                 // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
-                return SparseSchur::planned(plan, matrix, !parts.own, progress)
+                let always = !parts.own;
+                return SparseSchur::new(plan, matrix, always, &mut |done| asked.goes_on(done))
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             let lacks_memory =
@@ -268,8 +269,7 @@ impl Engine {
             }
             (asked.memory, asked.ended) = (0, None);
         }
-        let progress = &mut |step| asked.goes_on(step);
-        FullSpace::new(matrix, parts.inner, parts.dim, progress)
+        FullSpace::new(matrix, parts.inner, parts.dim, asked)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }

@@ -15,7 +15,7 @@ use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
-use crate::linalg::sparse_schur::{Failure, SparseSchur, Stopped};
+use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, DependentRows, Relation};
@@ -113,10 +113,12 @@ fn condensed(
     let watched = &mut |_| {
         monitor.goes_on().map_err(|stop| {
             stopped = Some(stop);
-            Stopped
+            Failure::Stopped
         })
     };
-    match (SparseSchur::new(all, kept, watched), stopped) {
+    let made = Plan::new(&all, kept, None, watched)
+        .and_then(|plan| SparseSchur::new(plan, all, true, watched));
+    match (made, stopped) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),
         (Err(Failure::OutOfMemory), None) => {
