@@ -27,18 +27,8 @@ impl<'p> FreeBlock<'p> {
         rows: Vec<usize>,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        Self::new(problem.stiffness(), rows, |i| problem.unit(i), goes_on)
-    }
-
-    /// Factorises the block of `rows`, component `i` of which has the positive unit `unit(i)`; `None` if it
-    /// is not positive semi-definite, or where `goes_on` says no.
-    pub fn new(
-        matrix: Matrix<'p>,
-        rows: Vec<usize>,
-        unit: impl Fn(usize) -> f64,
-        goes_on: GoesOn<'_>,
-    ) -> Option<Self> {
-        let scale: Vec<f64> = rows.iter().map(|&i| unit(i).sqrt().recip()).collect();
+        let matrix = problem.stiffness();
+        let scale: Vec<f64> = rows.iter().map(|&i| problem.unit(i).sqrt().recip()).collect();
         let entry = |i: usize, j: usize| scale[i] * matrix.at(rows[i], rows[j]) * scale[j];
         let factor = PivotedCholesky::within(rows.len(), NEGLIGIBLE, entry, goes_on)?;
         Some(FreeBlock { matrix, rows, scale, factor })

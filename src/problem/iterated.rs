@@ -8,12 +8,6 @@ use crate::linalg::vector::norm;
 /// Most preconditionings of one solution: with a preconditioner that takes more nothing is solved in time.
 const MOST: usize = 200;
 
-/// Why GMRES has ended early.
-enum Ended {
-    ByHost(Error),
-    ByMonitor,
-}
-
 /// The solution `x` of `A x = forces` with components held, no springs among the others, that leaves `left` of the
 /// forces, each in its unit; with the number of preconditionings that it has taken. The components are those of the last
 /// [`StiffnessOperator::hold`], and `held` tells them. `None` where `goes_on` says no.
@@ -35,27 +29,22 @@ pub fn iterated(
     };
     let right = scaled(forces);
     let mut directions: Vec<Vec<f64>> = Vec::new();
-    let found = gmres(&right, left * norm(&right), MOST, |v| {
+    // It ends early by an error of the host, or by none where `goes_on` says no.
+    let found = gmres(&right, left * norm(&right), MOST, |v| -> Result<Vec<f64>, Option<Error>> {
         let forces: Vec<f64> = v.iter().zip(&root).map(|(v, root)| v * root).collect();
-        let Some(z) = bodies.solve(&forces, goes_on)? else { return Err(Ended::ByMonitor) };
+        let Some(z) = bodies.solve(&forces, goes_on)? else { return Err(None) };
         let image = scaled(&bodies.product(&z)?);
         directions.push(z);
         Ok(image)
     });
     let shares = match found {
         Ok((shares, _)) => shares,
-        Err(Ended::ByMonitor) => return Ok(None),
-        Err(Ended::ByHost(error)) => return Err(error),
+        Err(None) => return Ok(None),
+        Err(Some(error)) => return Err(error),
     };
     let mut x = vec![0.0; forces.len()];
     for (share, z) in shares.iter().zip(&directions) {
         x.iter_mut().zip(z).for_each(|(x, z)| *x += share * z);
     }
     Ok(Some((x, directions.len() as u64)))
-}
-
-impl From<Error> for Ended {
-    fn from(error: Error) -> Self {
-        Ended::ByHost(error)
-    }
 }
