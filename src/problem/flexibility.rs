@@ -29,17 +29,17 @@ use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::{largest_of, norm, sizes};
 
 /// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
-/// caller's units; velocities and impulses may take their places.
+/// caller's units; velocities and impulses may take their places. A dense matrix is given column-major, with the entries
+/// from the beginning of one column to that of the next; a sparse one as a [`crate::reduce::SparseMatrix`], of which rows of
+/// zeros need not be stored.
 #[derive(Clone, Copy, Debug)]
-pub struct FlexibilityData<'a> {
+pub struct FlexibilityData<'a, W = (&'a [f64], usize)> {
     /// Space dimension, 2 or 3.
     pub dim: usize,
     /// Number of contact pairs, 0 allowed.
     pub pairs: usize,
-    /// `W`, `dim * pairs` columns of the same number of rows, column-major; length per force.
-    pub flexibility: &'a [f64],
-    /// Entries from the beginning of one column of `flexibility` to that of the next.
-    pub ld: usize,
+    /// `W`, `dim * pairs` columns of the same number of rows; length per force.
+    pub flexibility: W,
     /// `q`, the relative displacements without contact forces, `dim * pairs`; length.
     pub free: &'a [f64],
     /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
@@ -74,7 +74,7 @@ impl<'a> FlexibilityProblem<'a> {
     /// zero, or out of range; a `W` of zeros. Rows of zeros are allowed: nothing moves these components.
     pub fn from_flexibility(data: FlexibilityData<'a>) -> Result<Self, Error> {
         let size = unknowns(checked_dim(data.dim)?, data.pairs)?;
-        let matrix = Flexibility::checked_matrix(size, data.flexibility, data.ld)?;
+        let matrix = Flexibility::checked_matrix(size, data.flexibility)?;
         let form = FlexibilityForm::Dense(matrix);
         Self::with_form(form, data.dim, data.free, (data.gap, data.law, data.reference_slip))
     }
@@ -102,12 +102,8 @@ impl<'a> Flexibility<'a> {
     ///
     /// # Errors
     /// As [`FlexibilityProblem::from_flexibility`] of the matrix.
-    pub(crate) fn checked_matrix(
-        size: usize,
-        w: &'a [f64],
-        ld: usize,
-    ) -> Result<Matrix<'a>, Error> {
-        let matrix = dense("W", (w, ld), size, OF_MATRIX)?;
+    pub(crate) fn checked_matrix(size: usize, w: (&'a [f64], usize)) -> Result<Matrix<'a>, Error> {
+        let matrix = dense("W", w, size, OF_MATRIX)?;
         let root = matrix.diagonal_roots();
         symmetric_matrix::check_beside(&matrix, &root, ("W", Argument::Matrix))?;
         if size > 0 && matrix.largest_diagonal() == 0.0 {

@@ -22,7 +22,7 @@ impl FlexibilityReduction {
     /// # Errors
     /// As [`crate::FlexibilityProblem::from_flexibility`] of the matrix.
     pub fn dense(size: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
-        let matrix = Flexibility::checked_matrix(size, w, ld)?;
+        let matrix = Flexibility::checked_matrix(size, (w, ld))?;
         let dense = (0..size).flat_map(|j| matrix.column(j).to_vec()).collect();
         Ok(FlexibilityReduction { size, dense, sparse: None })
     }

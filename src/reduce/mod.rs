@@ -27,7 +27,5 @@ pub use operator::{HostOperator, OperatorReduction};
 pub use pairs::ContactPairs;
 pub use preconditioned::{Held, PreconditionedOperator, PreconditionedReduction};
 pub use reduction::{HostLoad, Reduction, SolvedCase};
-pub use sparse::{
-    Control, Indices, SparseFlexibilityData, SparseMatrix, SparseReduction, Triangle,
-};
+pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;

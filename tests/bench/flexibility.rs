@@ -9,7 +9,7 @@ use std::time::Instant;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Par, Side};
 use fastrand::Rng;
-use signorini::reduce::{Indices, SparseFlexibilityData, SparseMatrix, Triangle};
+use signorini::reduce::{Indices, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Monitor,
     Settings, Solution, State, Status, solve, solve_flexibility,
@@ -79,7 +79,7 @@ fn islands(dim: usize, pairs: usize, count: usize) -> f64 {
     let free = numbers(rng, n);
     let gap: Vec<f64> = (0..n / dim).map(|_| 0.4 * rng.f64() - 0.1).collect();
     let mu = vec![MU; n / dim];
-    let problem = FlexibilityProblem::from_sparse(SparseFlexibilityData {
+    let problem = FlexibilityProblem::from_sparse(FlexibilityData {
         dim,
         pairs: n / dim,
         flexibility: SparseMatrix {
@@ -133,8 +133,7 @@ fn dense(dim: usize, pairs: usize, open: f64) {
     let problem = FlexibilityProblem::from_flexibility(FlexibilityData {
         dim,
         pairs,
-        flexibility: &w,
-        ld: n,
+        flexibility: (&w, n),
         free: &free,
         gap: &gap,
         law,

@@ -143,8 +143,7 @@ fn flexibility() {
         let data = FlexibilityData {
             dim: 3,
             pairs,
-            flexibility: &w,
-            ld: n,
+            flexibility: (&w[..], n),
             free: &free,
             gap: &gap,
             law,

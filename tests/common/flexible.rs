@@ -30,8 +30,7 @@ impl Case {
         FlexibilityData {
             dim: self.dim,
             pairs: self.gap.len(),
-            flexibility: &self.w,
-            ld: self.q.len().max(1),
+            flexibility: (&self.w, self.q.len().max(1)),
             free: &self.q,
             gap: &self.gap,
             law: FrictionLaw::Coulomb(&self.mu),

@@ -415,11 +415,11 @@ fn a_pair_may_stand_twice_in_a_flexibility() {
             .filter(|i| i % dim != 0)
             .map(|i| case.rest(from(i) / dim, i % dim - 1))
             .collect();
+        let twice: Vec<f64> = (0..m * m).map(|at| entry(at % m, at / m)).collect();
         let data = FlexibilityData {
             dim,
             pairs,
-            flexibility: &(0..m * m).map(|at| entry(at % m, at / m)).collect::<Vec<f64>>(),
-            ld: m,
+            flexibility: (&twice[..], m),
             free: &(0..m).map(|i| free[from(i)]).collect::<Vec<f64>>(),
             gap: &(0..pairs).map(|p| case.gap[doubled(p)]).collect::<Vec<f64>>(),
             law: FrictionLaw::Coulomb(&(0..pairs).map(|p| mu[doubled(p)]).collect::<Vec<f64>>()),

@@ -5,10 +5,10 @@ use crate::common::dense::{difference, dot, largest, product};
 use crate::common::flexible::{Case, gram};
 use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
-use signorini::reduce::{Indices, SparseFlexibilityData, SparseMatrix, Triangle};
+use signorini::reduce::{Indices, SparseMatrix, Triangle};
 use signorini::{
-    Error, FlexibilityProblem, FrictionLaw, Limit, Method, Monitor, Settings, Solution, Status,
-    Uniqueness, memory_flexibility, solve_flexibility,
+    Error, FlexibilityData, FlexibilityProblem, FrictionLaw, Limit, Method, Monitor, Settings,
+    Solution, Status, Uniqueness, memory_flexibility, solve_flexibility,
 };
 
 /// A matrix by columns, as a host has it.
@@ -58,7 +58,7 @@ impl Stored {
 
 /// A case with its matrix stored as a sparse one.
 fn problem<'a>(case: &'a Case, stored: &'a Stored) -> Result<FlexibilityProblem<'a>, Error> {
-    FlexibilityProblem::from_sparse(SparseFlexibilityData {
+    FlexibilityProblem::from_sparse(FlexibilityData {
         dim: case.dim,
         pairs: case.gap.len(),
         flexibility: stored.view(),
@@ -375,7 +375,7 @@ fn all_forms_of_the_matrix_are_one() {
                 ..stored.view()
             };
             for flexibility in [stored.view(), narrow] {
-                let problem = FlexibilityProblem::from_sparse(SparseFlexibilityData {
+                let problem = FlexibilityProblem::from_sparse(FlexibilityData {
                     dim: 3,
                     pairs: 5,
                     flexibility,

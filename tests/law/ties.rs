@@ -318,8 +318,7 @@ fn ties_in_flexibility_form() {
         let problem = FlexibilityProblem::from_flexibility(FlexibilityData {
             dim,
             pairs: case.pairs,
-            flexibility: w,
-            ld: q.len(),
+            flexibility: (w, q.len()),
             free: q,
             gap: &case.gap,
             law: case.law.friction(),

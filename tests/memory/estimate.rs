@@ -7,7 +7,7 @@
 use crate::counted;
 use fastrand::Rng;
 use signorini::certificate::{certify, prove};
-use signorini::reduce::{self, Indices, SparseFlexibilityData, SparseMatrix, Triangle};
+use signorini::reduce::{self, Indices, SparseMatrix, Triangle};
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Lcp, LoadCase,
     Method, Model, Monitor, Search, Settings, Starts, memory, memory_flexibility, solve,
@@ -216,8 +216,7 @@ fn flexibilities(chain: &Chain, shares: &mut Shares) {
             let data = FlexibilityData {
                 dim: chain.dim,
                 pairs: chain.pairs,
-                flexibility: &chain.k,
-                ld: n,
+                flexibility: (&chain.k[..], n),
                 free: &chain.load,
                 gap: &chain.gap,
                 law,
@@ -253,7 +252,7 @@ fn sparse_flexibility(chain: &Chain, shares: &mut Shares) {
         col_start.push(row.len() as i64);
     }
     for (name, law) in chain.laws() {
-        let data = SparseFlexibilityData {
+        let data = FlexibilityData {
             dim: chain.dim,
             pairs: chain.pairs,
             flexibility: SparseMatrix {

@@ -8,29 +8,9 @@ use crate::linalg::sparse_matrix::{Csc, column, diagonal};
 use crate::linalg::tolerances::AGREES;
 use crate::problem::symmetric_matrix::beyond_diagonal;
 use crate::problem::{
-    FlexibilityForm, FlexibilityProblem, FrictionLaw, SparseW, checked_dim, unknowns,
+    FlexibilityData, FlexibilityForm, FlexibilityProblem, SparseW, checked_dim, unknowns,
 };
 use crate::reduce::probes::refuse;
-
-/// The caller's arrays of a problem in flexibility form with a sparse `W`, not yet checked. Units as in
-/// [`crate::FlexibilityData`].
-#[derive(Clone, Copy, Debug)]
-pub struct SparseFlexibilityData<'a> {
-    /// Space dimension, 2 or 3.
-    pub dim: usize,
-    /// Number of contact pairs, 0 allowed.
-    pub pairs: usize,
-    /// `W`, of `dim * pairs` rows; length per force. Rows of zeros need not be stored.
-    pub flexibility: SparseMatrix<'a>,
-    /// `q`, the relative displacements without contact forces, `dim * pairs`; length.
-    pub free: &'a [f64],
-    /// Initial gaps, `pairs`; negative: interference, `+inf`: the pair never touches.
-    pub gap: &'a [f64],
-    /// The friction law.
-    pub law: FrictionLaw<'a>,
-    /// Reference slip, as in [`crate::ContactData::reference_slip`].
-    pub reference_slip: Option<&'a [f64]>,
-}
 
 impl<'a> FlexibilityProblem<'a> {
     /// Checks the data and copies `W`.
@@ -40,7 +20,7 @@ impl<'a> FlexibilityProblem<'a> {
     /// wrong triangle, not finite, not symmetric beyond rounding (1e-9 of the diagonal), larger than its diagonal
     /// allows, negative on the diagonal or zero there in a row that is not zero; a `W` of another size or of
     /// zeros; the first entry of another array that is out of range. [`Error::OutOfMemory`]: no memory for the copy.
-    pub fn from_sparse(data: SparseFlexibilityData<'a>) -> Result<Self, Error> {
+    pub fn from_sparse(data: FlexibilityData<'a, SparseMatrix<'_>>) -> Result<Self, Error> {
         let matrix = SparseW::from_sparse(data.dim, data.pairs, &data.flexibility)?;
         let form = FlexibilityForm::Sparse(Cow::Owned(matrix));
         Self::with_form(form, data.dim, data.free, (data.gap, data.law, data.reference_slip))

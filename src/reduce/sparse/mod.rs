@@ -25,6 +25,5 @@ mod sparse_reduction;
 mod supports;
 
 pub use control::Control;
-pub use flexibility::SparseFlexibilityData;
 pub use host_arrays::{Indices, SparseMatrix, Triangle};
 pub use sparse_reduction::SparseReduction;
