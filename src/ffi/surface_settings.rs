@@ -8,6 +8,7 @@ use super::numbers::{Numbered, numbers};
 use super::settings::{ParsedSettings, SignoriniProgressFn, SignoriniSettings};
 use super::structures::Structure;
 use super::surface::SignoriniObstacle;
+use crate::linalg::vector3::vector;
 use crate::surface::{
     NodeDofs, Normals, Pairing, Rims, Sector, SurfaceSettings, SymmetryPlane, TrueShape,
 };
@@ -212,7 +213,9 @@ impl SignoriniSurfaceSettings {
         };
         let places = at.field("symmetry_at").required(self.symmetry_at, count)?;
         let across: Vec<[f64; 3]> = match normals {
-            Some(normals) => normals.chunks_exact(dim).map(three).collect(),
+            Some(normals) => {
+                normals.chunks_exact(dim).map(|normal| vector(normal).into()).collect()
+            }
             None => self.across(at.field("symmetry_axes"), axes, dim)?,
         };
         let plane = |(normal, &at)| SymmetryPlane { normal, at };
@@ -240,20 +243,13 @@ impl SignoriniSurfaceSettings {
         if count == 0 {
             return Ok(None);
         }
-        let point = three(at.field("sector_point").required(self.sector_point, dim)?);
+        let point = vector(at.field("sector_point").required(self.sector_point, dim)?).into();
         let axis = match dim {
             2 => [0.0, 0.0, 1.0],
-            _ => three(at.field("sector_axis").required(self.sector_axis, 3)?),
+            _ => vector(at.field("sector_axis").required(self.sector_axis, 3)?).into(),
         };
         Ok(Some(Sector { point, axis, count }))
     }
-}
-
-/// The numbers of a place or a direction, in the plane with a zero behind them.
-fn three(numbers: &[f64]) -> [f64; 3] {
-    let mut all = [0.0; 3];
-    all[..numbers.len()].copy_from_slice(numbers);
-    all
 }
 
 numbers! {

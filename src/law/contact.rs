@@ -18,9 +18,7 @@ pub struct Contact<'p, R = Stiffness<'p>> {
 impl Contact<'_> {
     /// The force `F - a` that equilibrium at `d` needs beside the tension of the pairs: `K d - (f + a)`.
     pub fn force_without_tension(&self, d: &[f64]) -> Vec<f64> {
-        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
-        self.problem.stiffness().add_product(d, &mut force);
-        force
+        self.problem.stiffness().product_less(d, &self.load)
     }
 }
 

@@ -159,6 +159,13 @@ impl<'a> Matrix<'a> {
         product
     }
 
+    /// The product with `x` less `b`.
+    pub fn product_less(&self, x: &[f64], b: &[f64]) -> Vec<f64> {
+        let mut left: Vec<f64> = b.iter().map(|b| -b).collect();
+        self.add_product(x, &mut left);
+        left
+    }
+
     /// The product with `x + x_low` less `b`, in twice the precision and rounded once. `x_low` is empty, or
     /// what rounding to doubles has left out of `x`; `terms` is [`Self::magnitude`] of `|x|`.
     ///

@@ -169,9 +169,7 @@ impl<'a> ContactProblem<'a> {
 
     /// Contact force that equilibrium at `d` needs: `K d - f`.
     pub fn force(&self, d: &[f64]) -> Vec<f64> {
-        let mut force: Vec<f64> = self.relation.load.iter().map(|f| -f).collect();
-        self.relation.matrix.add_product(d, &mut force);
-        force
+        self.relation.matrix.product_less(d, self.relation.load)
     }
 
     /// Internal force `K d`, in twice the precision and rounded once.

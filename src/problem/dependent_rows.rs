@@ -156,10 +156,6 @@ fn units(dependence: &Dependence, stiffness: &Matrix<'_>) -> Vec<f64> {
 }
 
 impl Relation for DependentRows<'_> {
-    fn size(&self) -> usize {
-        self.units.len()
-    }
-
     fn block(&self, i: usize, j: usize) -> f64 {
         if i == j { self.units[i] } else { 0.0 }
     }

@@ -155,10 +155,6 @@ impl<'a> Flexibility<'a> {
 }
 
 impl Relation for Flexibility<'_> {
-    fn size(&self) -> usize {
-        self.units.len()
-    }
-
     fn block(&self, i: usize, j: usize) -> f64 {
         if i == j { self.units[i] } else { 0.0 }
     }

@@ -67,8 +67,7 @@ impl<'p> FreeBlock<'p> {
     /// Brings the independent rows into equilibrium with the loads.
     pub fn equilibrate(&self, load: &[f64], d: &mut [f64]) {
         for _ in 0..SOLUTIONS {
-            let mut excess: Vec<f64> = load.iter().map(|f| -f).collect();
-            self.matrix.add_product(d, &mut excess);
+            let excess = self.matrix.product_less(d, load);
             self.correct(&excess, d);
         }
     }

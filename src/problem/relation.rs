@@ -17,7 +17,9 @@ use crate::linalg::vector::norm;
 /// pair, `D` for each.
 pub trait Relation {
     /// Number of components of `d`, and of `F`.
-    fn size(&self) -> usize;
+    fn size(&self) -> usize {
+        self.load().len()
+    }
 
     /// Entry of the symmetric positive definite `D x D` block, a force per length, that turns
     /// displacements of a pair into forces of the size that the relation has: `K` itself, or another
@@ -113,10 +115,6 @@ impl<'a> Stiffness<'a> {
 }
 
 impl Relation for Stiffness<'_> {
-    fn size(&self) -> usize {
-        self.matrix.size()
-    }
-
     fn block(&self, i: usize, j: usize) -> f64 {
         if i == j { self.unit(i) } else { self.matrix.at(i, j) }
     }

@@ -164,10 +164,6 @@ impl<'a> MatrixFree<'a> {
 }
 
 impl Relation for MatrixFree<'_> {
-    fn size(&self) -> usize {
-        self.units.len()
-    }
-
     fn block(&self, i: usize, j: usize) -> f64 {
         let normal = i.is_multiple_of(self.dim) || j.is_multiple_of(self.dim);
         match i == j {

@@ -89,9 +89,7 @@ impl<'a> Equations<'a> {
 
     /// `K d - f`.
     pub fn force(&self, d: &[f64]) -> Vec<f64> {
-        let mut force: Vec<f64> = self.load.iter().map(|f| -f).collect();
-        self.matrix.add_product(d, &mut force);
-        force
+        self.matrix.product_less(d, &self.load)
     }
 
     /// The pieces on which the coordinates `y` are.
