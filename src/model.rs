@@ -245,8 +245,7 @@ impl Model {
         self.check_formed()?;
         let condensed = || self.condensed_load(case.load, case.prescribed);
         let load = load.map_or_else(condensed, Ok)?;
-        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
-        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
+        let slip = self.allowed_slip(case)?;
         let problem = ContactProblem::on_checked_matrix(ContactData {
             dim: self.dim,
             pairs: self.pairs,
@@ -275,9 +274,8 @@ impl Model {
             self.reduction.condense(case.load, case.prescribed)
         };
         let load = load.map_or_else(condensed, Ok)?;
-        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
+        let slip = self.allowed_slip(case)?;
         let offset = dependence.offset(case.prescribed);
-        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
         let stiffness = (self.reduction.stiffness(), &load[..]);
         let relation = DependentRows::new(dependence, stiffness, &offset);
         let (gap, slip) = (case.gap, slip.as_deref());
@@ -298,10 +296,14 @@ impl Model {
         }
     }
 
-    /// The reference slip, zero where supports on both sides of a pair fix it.
-    fn allowed_slip(&self, slip: &[f64]) -> Vec<f64> {
+    /// The reference slip of a load case, zero where supports on both sides of a pair fix it. Refuses gaps that such
+    /// supports do not allow.
+    fn allowed_slip(&self, case: &LoadCase<'_>) -> Result<Option<Vec<f64>>, Error> {
+        let fixed = self.reduction.fixed_components();
+        check_fixed_gaps(fixed, self.dim, case.gap, case.law)?;
+        let Some(slip) = case.reference_slip else { return Ok(None) };
         let mut slip = slip.to_vec();
-        for component in self.reduction.fixed_components() {
+        for component in fixed {
             let (pair, direction) = (component / self.dim, component % self.dim);
             if direction > 0
                 && let Some(slip) = slip.get_mut((self.dim - 1) * pair + direction - 1)
@@ -309,6 +311,6 @@ impl Model {
                 *slip = 0.0;
             }
         }
-        slip
+        Ok(Some(slip))
     }
 }

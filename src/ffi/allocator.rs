@@ -90,8 +90,8 @@ impl Drop for CallReserve {
 }
 
 /// The call may need `bytes` more than what it asked for before. `false`: the system refuses them.
-pub(super) fn want(bytes: usize) -> bool {
-    let wanted = WANTED.get().saturating_add(bytes);
+pub(super) fn want(bytes: u64) -> bool {
+    let wanted = WANTED.get().saturating_add(bytes as usize);
     let held = HELD.get();
     // Arrays come one by one: not a block for each of them.
     let has_room = wanted <= held || grow((wanted - held).max(held / 2));

@@ -96,13 +96,13 @@ pub(super) fn call(body: impl FnOnce() -> Outcome<i32>) -> i32 {
 
 /// Obtains memory for a call that may need so much, before its work begins.
 pub(super) fn reserve(bytes: usize) -> Outcome<()> {
-    if reserve::want(bytes) { Ok(()) } else { Err(Failure::no_reserve(bytes)) }
+    if reserve::want(bytes as u64) { Ok(()) } else { Err(Failure::no_reserve(bytes)) }
 }
 
 /// As [`reserve`], for what the library estimates.
 pub(super) fn reserve_estimate(bytes: u64) -> Outcome<()> {
     prepare_thread()?;
-    reserve(usize::try_from(bytes).unwrap_or(usize::MAX))
+    reserve(bytes as usize)
 }
 
 /// Lets the thread obtain what it keeps for matrix products while that is held in reserve: faer obtains it at

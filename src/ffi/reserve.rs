@@ -17,11 +17,6 @@ impl CallReserve {
 }
 
 #[cfg(not(c_library))]
-pub(super) fn want(_: usize) -> bool {
+pub(super) fn want(_: u64) -> bool {
     true
-}
-
-/// As [`want`], of what the library estimates.
-pub(super) fn want_estimate(bytes: u64) -> bool {
-    want(usize::try_from(bytes).unwrap_or(usize::MAX))
 }

@@ -204,7 +204,7 @@ impl ParsedSettings {
             let mut progress = self.progress();
             let progress = progress.as_mut().map(|progress| progress as &mut ProgressFn<'_>);
             let mut monitor = Monitor::new(&self.settings, progress);
-            monitor.reserve = reserve::want_estimate;
+            monitor.reserve = reserve::want;
             work(&mut monitor)
         })
     }

@@ -1,7 +1,6 @@
 //! Models that have no stiffness in relative displacements: what they are asked in its place, and what they
 //! refuse.
 
-use super::arguments::check_fixed_gaps;
 use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
 use crate::problem::{StiffnessOperator, checked_dim, unknowns};
@@ -65,8 +64,7 @@ impl Model {
         to: impl FnOnce(&mut dyn StiffnessOperator, &MatrixFreeCase<'_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_loads(Some(case.load), case.prescribed)?;
-        check_fixed_gaps(self.reduction.fixed_components(), self.dim, case.gap, case.law)?;
-        let slip = case.reference_slip.map(|slip| self.allowed_slip(slip));
+        let slip = self.allowed_slip(case)?;
         let load = self.reduction.all_loads(case.load, case.prescribed);
         let case = MatrixFreeCase {
             dim: self.dim,

@@ -17,6 +17,11 @@ use crate::linalg::sparse_matrix::{
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{largest_of, norm_inf};
 
+/// Why rows of surfaces nearly depend on each other, and what to do.
+pub(crate) const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
+     plane of symmetry are finer than what they face, name the plane where they are paired, or let the other side be \
+     the slave";
+
 /// How displacements follow from independent variables, `C` and `Z`, and from values of fixed degrees of freedom.
 #[derive(Clone, Debug)]
 pub struct Dependence {

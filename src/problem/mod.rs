@@ -28,7 +28,7 @@ pub(crate) use bounded_lcp::BoundedLcp;
 pub use contact::ContactProblem;
 pub use contact_data::ContactData;
 pub use dependent_rows::Dependence;
-pub(crate) use dependent_rows::DependentRows;
+pub(crate) use dependent_rows::{DependentRows, NEARLY_DEPENDENT};
 pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};
 pub use flexibility_form::FlexibilityForm;
 pub(crate) use free_block::{FreeBlock, SOLUTIONS};

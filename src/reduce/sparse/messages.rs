@@ -4,7 +4,7 @@
 use super::host_arrays::{Indices, SparseMatrix};
 use crate::error::{entry, index, number};
 use crate::linalg::sparse_schur::Failure;
-use crate::problem::symmetric_matrix;
+use crate::problem::{NEARLY_DEPENDENT, symmetric_matrix};
 use crate::reduce::motion;
 
 /// Beyond this an integer is none that counts the entries of a matrix in memory, but two integers of 4
@@ -111,11 +111,6 @@ pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
         entry("K", [dof, dof])
     )
 }
-
-/// Why rows of surfaces nearly depend on each other, and what to do.
-const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
-     plane of symmetry are finer than what they face, name the plane where they are paired, or let the other side be \
-     the slave";
 
 /// Why the factorisation failed, with motions by `host` in degrees of freedom of the host, and the free ones of these. Pairs of
 /// `general` rows may nearly follow from others, which enlarges rounding.

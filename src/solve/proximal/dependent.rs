@@ -18,7 +18,7 @@ use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
 use crate::monitor::{Monitor, Stop};
-use crate::problem::{ContactProblem, DependentRows, Relation};
+use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
 use crate::settings::Settings;
 use crate::solve::result::{Ending, Solution, Solve};
 
@@ -126,9 +126,9 @@ fn condensed(
         }
         (Err(_), None) => Err(Error::invalid(
             Argument::Matrix,
-            "the stiffness of the bodies between dependent pairs cannot be told from rounding: if two surfaces are \
-             each other's slaves, let one side be the slave; if slaves along a plane of symmetry are finer than what \
-             they face, name the plane where they are paired, or let the other side be the slave",
+            format!(
+                "the stiffness of the bodies between dependent pairs cannot be told from rounding: {NEARLY_DEPENDENT}"
+            ),
         )),
     }
 }
