@@ -150,7 +150,7 @@ class Zones(unittest.TestCase):
         forces = [row.force[1] for row in result.table()]
         np.testing.assert_allclose(forces, 1.5 * p, atol=1e-9)
         self.assertIn("1 pairs of later zones are in those of the same nodes", result.contact.summary)
-        # The middle node has the gap of the first zone, or of both as they were paired.
+        # The middle node has the mean of the gaps of both.
         gaps = {name: contact.gaps for name, contact in contacts.items()}
         np.testing.assert_array_equal(model.solve(load, gaps).d, result.d)
         wide = model.solve(load, {"left": 5.0, "right": contacts["right"].gaps})
@@ -200,6 +200,10 @@ class Zones(unittest.TestCase):
             signorini.Model.from_surfaces(np.eye(2), {1: self.contacts["above"]})
         with self.assertRaisesRegex(ValueError, r"gap\['above'\] has the shape \(3, 2\): .* of its 2 pairs; for cases"):
             self.model.solve(np.array([self.load] * 3), {"above": np.zeros((3, 2)), "below": 0.0}, 0.3)
+        with self.assertRaisesRegex(ValueError, r"mu\['above'\] has the shape \(3,\): give one number, or those, shape \(2,\)"):
+            self.model.solve(self.load, mu={"above": [0.1, 0.2, 0.3], "below": 0.1})
+        with self.assertRaisesRegex(signorini.SignoriniError, r"zones\['above'\].*mu\[0\] is -1"):
+            signorini.Model.from_surfaces(np.eye(2), {"above": signorini.Zone(self.contacts["above"], -1.0)})
         alone = signorini.solve(common.K, common.LOAD, 0.0, 0.3)
         with self.assertRaisesRegex(ValueError, "the model has no zones with names"):
             alone.zone("above")
@@ -251,6 +255,104 @@ class Zones(unittest.TestCase):
         measured = self.model.certify(self.load, None, {"above": 0.3, "below": 0.1}, d=one.d)
         self.assertEqual(measured.status, Status.SOLVED)
         np.testing.assert_allclose(measured.zone("above").F, one.zone("above").F, atol=1e-9)
+
+
+class OtherMeshes(unittest.TestCase):
+    def test_zones_of_other_meshes_are_refused(self):
+        """Masters of as many nodes, at other places: forces would act on the nodes of one of them."""
+        slave = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]])
+        lines = {"left": [[1, 0]], "right": [[2, 1]]}
+        zones = {}
+        for name, from_ in (("left", 0.0), ("right", 1.0)):
+            at = np.vstack([slave, [[from_, 0.0], [from_ + 1.0, 0.0]]])
+            zones[name] = signorini.pair_surfaces(at, lines[name], [[3, 4]])
+        springs = np.ones(10), np.arange(10), np.arange(11)
+        with self.assertRaisesRegex(ValueError, "zone 'right' is of another mesh than zone 'left', as node 3 stands elsewhere"):
+            signorini.Model.from_surfaces(springs, zones)
+
+
+class CurvedCut(unittest.TestCase):
+    """A ring of 12 faces on a hub of 14, every node on springs of 1 and of 2, in two zones, half of the ring each."""
+
+    def setUp(self):
+        def circle(count, first):
+            angles = np.tile(2 * np.pi * np.arange(count) / count, 2)
+            one = np.arange(first, first + count)
+            after, up = np.roll(one, -1), one + count
+            return (np.column_stack([np.cos(angles), np.sin(angles), np.repeat([0.0, 0.5], count)]),
+                    np.column_stack([one, up, after + count, after]))
+
+        ring, bore = circle(12, 0)
+        hub, outside = circle(14, len(ring))
+        self.at, self.hub = np.vstack([ring, hub]), outside[:, ::-1]
+        self.halves = {"left": bore[:6], "right": bore[6:]}
+        self.springs = (np.repeat([1.0, 2.0], [ring.size, hub.size]), np.arange(self.at.size), np.arange(self.at.size + 1))
+        # A push aside and a twist, with which all nodes stick at first.
+        load = np.zeros_like(self.at)
+        load[:24] = [3e-4, 1e-4, 2e-4]
+        load[:24, :2] += 1e-4 * ring[:, 1::-1] * [-1, 1]
+        self.load = load.ravel()
+
+    def model(self, left, right):
+        """The model of zones with clearances."""
+        contacts = {name: signorini.pair_surfaces(self.at, self.halves[name], self.hub, clearance=clearance)
+                    for name, clearance in (("left", left), ("right", right))}
+        return signorini.Model.from_surfaces(self.springs, contacts), contacts
+
+    def test_gaps_by_hand_are_those_of_clearances(self):
+        """In all zones, in one of them, and as numbers of the case."""
+        for left, right in (-0.02, -0.02), (-0.02, 0.0):
+            wanted = self.model(left, right)[0].solve(self.load, mu=0.3)
+            model, contacts = self.model(0.0, 0.0)
+            gaps = {"left": contacts["left"].gaps + left, "right": contacts["right"].gaps + right}
+            np.testing.assert_allclose(model.solve(self.load, gaps, 0.3).F, wanted.F, atol=1e-12)
+            for name, contact in contacts.items():
+                contact.gaps[:] = gaps[name]
+            np.testing.assert_allclose(model.solve(self.load, mu=0.3).F, wanted.F, atol=1e-12)
+
+    def test_zones_balance_the_loads_and_have_the_fields(self):
+        for gap in None, {"left": -0.03, "right": -0.02}:
+            model, contacts = self.model(-0.02, -0.02)
+            for name, contact in contacts.items() if gap else ():
+                contact.gaps[:] = gap[name]
+            result = model.solve(self.load, mu=0.3)
+            self.assertEqual(result.status, Status.SOLVED)
+            forces = model.nodal_forces(result.F).reshape(-1, 3)[:24]
+            np.testing.assert_allclose(sum(row.force for row in result.table()), forces.sum(axis=0), atol=1e-12)
+            parts = {name: pickle.loads(pickle.dumps(result.zone(name))) for name in contacts}
+            sums = [contacts[name].resultant(part, [0.1, 0.2, 0.3]) for name, part in parts.items()]
+            moment = np.cross(self.at[:24] - [0.1, 0.2, 0.3], forces).sum(axis=0)
+            np.testing.assert_allclose(sum(one.moment for one in sums), moment, atol=1e-12)
+            # The work of friction: forces along the surface by what they move.
+            work = -np.sum(result.F[:, 1:] * result.d[:, 1:])
+            self.assertAlmostEqual(sum(one.friction_work for one in sums), work, places=14)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "zones.vtu")
+                result.contact.write(path, {"quad": self.hub}, result)
+                written = arrays_of(path)
+            for name, part in parts.items():
+                fields, slaves = contacts[name].fields(part), contacts[name].nodes
+                np.testing.assert_allclose(fields.clearance[slaves], 0, atol=1e-15)
+                for what in ("pressure", "traction", "slip", "clearance"):
+                    np.testing.assert_allclose(getattr(fields, what)[slaves], written[what][slaves], atol=1e-12)
+                host = np.einsum("pi,pij->pj", part.F, part.frames) / contacts[name].areas[:, None]
+                np.testing.assert_allclose(fields.traction[slaves], host, atol=1e-12)
+
+    def test_the_same_load_again_slips_nowhere(self):
+        model, contacts = self.model(-0.02, -0.02)
+        first = model.solve(self.load, mu=0.3)
+        slips = {name: first.zone(name).d[:, 1:] for name in contacts}
+        for slip0 in slips, first.d[:, 1:]:
+            result = model.solve(self.load, mu=0.3, slip0=slip0)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "again.vtu")
+                result.contact.write(path, {"quad": self.hub}, result, slip0=slip0)
+                np.testing.assert_allclose(arrays_of(path)["slip"], 0, atol=1e-12)
+        for name, contact in contacts.items():
+            np.testing.assert_allclose(contact.fields(result.zone(name), slip0=slips[name]).slip, 0, atol=1e-12)
+        # One pair's slip, and one number for all.
+        zeros = model.solve(self.load, mu=0.3, slip0={"left": [0, 0], "right": 0.0})
+        np.testing.assert_array_equal(zeros.F, first.F)
 
 
 if __name__ == "__main__":

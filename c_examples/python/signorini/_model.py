@@ -451,8 +451,8 @@ class Model(Remade):
         f, prescribed = self._loads(f, prescribed, cases)
         if self._zones is not None:
             gap = self._zones.gaps() if gap is None else self._zones.joined("gap", gap)
-            slip0 = self._zones.joined("slip0", slip0)
-            friction.values = self._zones.joined(friction.name, friction.values)
+            slip0 = self._zones.joined("slip0", slip0, self.dim - 1)
+            friction.values = self._zones.joined(friction.name, friction.values, friction.law.numbers)
             if self._zones.has_laws and not friction.is_given:
                 friction = Friction(None, None, Law.BY_PAIR, self._zones.friction)
         elif gap is None and self.contact is not None:

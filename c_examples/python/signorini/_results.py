@@ -21,7 +21,7 @@ memory: bytes that it needs in all, told before they are taken; 0 before they ar
 """
 
 _Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "
-                     "escape contact penetration", defaults=(None, None, None, None, None))
+                     "escape contact penetration frames", defaults=(None, None, None, None, None, None))
 
 
 class Result(_Fields):
@@ -43,6 +43,8 @@ class Result(_Fields):
     or None.
     penetration: with pairs from surfaces and status SOLVED the Penetration of what has passed through the other side
     without a pair, of which solve warns; None: nothing has.
+    frames: of a zone that shares pairs with others, where they cut a smooth surface, normal and tangents of each pair, as
+    Model.frames has them; None: those of contact.
 
     A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
     """

@@ -179,7 +179,8 @@ class SurfacePairs(Remade):
         settings.progress = call.settings.progress
         across, places = _planes(symmetry, self.dim)
         # Nodes on the axis of bodies of revolution stand as on a plane of symmetry.
-        along = [int(abs(normal).argmax()) for normal in across if np.count_nonzero(normal) == 1]
+        along = [int(abs(normal).argmax()) for normal in across
+                 if np.count_nonzero(abs(normal) > 1e-6 * abs(normal).max()) == 1]
         self.symmetry_axes = along + ([0] if axisymmetric else [])
         settings.symmetry_planes = len(across)
         settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
@@ -275,6 +276,13 @@ class SurfacePairs(Remade):
                                          zip(Fields._fields, found)})
         self._do("surface_fields", at(gap), at(slip0), at(d), at(F), at(state),
                  ctypes.byref(places))
+        if result.frames is not None:
+            # Their vectors over areas in the axes of the mesh.
+            moved = np.hstack([np.zeros((self.pairs, 1)), d[:, 1:] - (0.0 if slip0 is None else slip0)])
+            for place, vectors in (found.traction, F), (found.slip, self.areas[:, None] * moved):
+                own = self._turned(vectors, result.frames)
+                only = sized(ContactFields, traction=at(place))
+                self._do("surface_fields", None, None, at(d), at(own), None, ctypes.byref(only))
         return found
 
     def resultant(self, result, point=None, *, slip0=None):
@@ -282,10 +290,16 @@ class SurfacePairs(Remade):
         _, slip0, d, F, _ = self._results(result, slip0, None)
         asked = f"a place, shape {(self.dim,)}"
         point = fit("point", point, [(self.dim,)], asked, optional=True)
-        sums = sized(ResultantSums)
-        self._do("surface_resultant", at(slip0), at(d), at(F), at(point), ctypes.byref(sums))
-        return Resultant(np.array(sums.force), np.array(sums.moment), sums.friction_work,
-                         sums.pressed_area)
+        sums, acting = sized(ResultantSums), sized(ResultantSums)
+        for of, forces in (sums, F), (acting, self._turned(F, result.frames)):
+            self._do("surface_resultant", at(slip0), at(d), at(forces), at(point), ctypes.byref(of))
+        return Resultant(np.array(acting.force), np.array(acting.moment), sums.friction_work, sums.pressed_area)
+
+    def _turned(self, vectors, frames):
+        """Vectors in frames of their own, or None, in those that the library has of the pairs."""
+        if frames is None:
+            return vectors
+        return doubles(np.einsum("pik,pjk,pj->pi", frames_of(self.normals, self.tangents), frames, vectors))
 
     def adjusted(self, within=np.inf):
         """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet, once.
@@ -330,7 +344,14 @@ class SurfacePairs(Remade):
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
         returns them.
         """
-        write_zones(path, cells, [(self, result, slip0, gap)], u)
+        self._write(path, cells, self, result, u, slip0, self.gaps if gap is None else gap)
+
+    def _write(self, path, cells, of, result, u, slip0, gap):
+        """Writes the mesh of SurfacePairs and the fields."""
+        u = None if u is None else of._displacements(u)
+        gap, slip0, d, F, state = self._results(result, slip0, gap)
+        zone = sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d), F=at(F), state=at(state))
+        Cells(of.coordinates, cells).write(path, u, [zone])
 
     def _results(self, result, slip0, gap):
         pairs, dim = self.pairs, self.dim
@@ -345,14 +366,10 @@ class SurfacePairs(Remade):
         check(self._functions, getattr(self._functions, function)(self._handle, *arguments))
 
 
-def write_zones(path, cells, zones, u):
-    """Writes a mesh with the fields of zones: SurfacePairs, the Result, slip0 and gap of each; see SurfacePairs.write."""
-    first = zones[0][0]
-    mesh, u = Cells(first.coordinates, cells), None if u is None else first._displacements(u)
-    arrays = [contact._results(*of) for contact, *of in zones]
-    mesh.write(path, u, [
-        sized(Zone, contact=contact._handle, gap=at(gap), slip0=at(slip0), d=at(d), F=at(F), state=at(state))
-        for (contact, *_), (gap, slip0, d, F, state) in zip(zones, arrays)])
+def frames_of(normals, tangents):
+    """Normal, then tangents of each pair, (P, D, D)."""
+    second = [np.cross(normals, tangents)] if normals.shape[1] == 3 else []
+    return np.stack([normals, tangents, *second], axis=1)
 
 
 class _Faces:

@@ -1,16 +1,17 @@
 """Contact zones by name, in one model."""
 
 import ctypes
+import re
 from collections import namedtuple
 
 import numpy as np
 
-from ._arrays import at, copied, reals
+from ._arrays import at, copied, fit, reals
 from ._constants import State
 from ._law import Friction
-from ._library import Owner, Remade, check, library
+from ._library import Owner, Remade, SignoriniError, check, library
 from ._structures import ContactZone, SurfaceData, address, i64, real, sized
-from ._surfaces import SurfacePairs, write_zones
+from ._surfaces import SurfacePairs, frames_of
 
 ZoneSums = namedtuple("ZoneSums", "zone pairs open slip stick pressed_area force")
 ZoneSums.__doc__ = """A row of Result.table().
@@ -58,7 +59,20 @@ class Zones(Remade):
             if not isinstance(contact, SurfacePairs):
                 raise TypeError(f"zones[{name!r}] is a {type(contact).__name__}: give what pair_surfaces or "
                                 f"pair_obstacle returns")
+        self._check_meshes()
         self._join(zones)
+
+    def _check_meshes(self):
+        """Refuses zones of different meshes of one size. Slave nodes may have been moved between two pairings."""
+        (first, one), *others = self.contacts.items()
+        for name, other in others:
+            if other.coordinates.shape != one.coordinates.shape:
+                continue
+            differs = np.any(other.coordinates != one.coordinates, axis=1)
+            differs[np.concatenate([np.zeros(0, int), *one.slave_faces, *other.slave_faces]).astype(int)] = False
+            if differs.any():
+                raise ValueError(f"zone {name!r} is of another mesh than zone {first!r}, as node {differs.argmax()} stands elsewhere: "
+                                 "put all meshes into one, and pair parts of that by pair_surfaces")
 
     def __reduce__(self):
         return type(self), self._made_of
@@ -66,8 +80,9 @@ class Zones(Remade):
     def __getattr__(self, name):
         raise AttributeError(f"the pairs of several zones have no {name}: ask those of one, result.zone(name).contact")
 
-    # The pairs of all zones for the library, with equations between degrees of freedom.
-    with_equations = SurfacePairs.with_equations
+    # Joined pairs are pairs for the library.
+    with_equations, _do = SurfacePairs.with_equations, SurfacePairs._do
+    _results, _write = SurfacePairs._results, SurfacePairs._write
 
     def _join(self, zones):
         """The pairs of all zones as one object of the library."""
@@ -76,19 +91,24 @@ class Zones(Remade):
         given = (ContactZone * len(zones))(*[
             sized(ContactZone, law=zone.friction.law, contact=zone.contact._handle, name=name.encode(), friction=at(own))
             for (name, zone), own in zip(zones.items(), numbers)])
-        check(functions, functions.surface_join(len(zones), given, ctypes.byref(handle)))
-        self._owner = Owner(functions.surface_free, handle.value)
-        check(functions, functions.surface_view(handle, ctypes.byref(data)))
+        try:
+            check(functions, functions.surface_join(len(zones), given, ctypes.byref(handle)))
+        except SignoriniError as error:
+            named = re.sub(r"zones (\d+)", lambda found: f"zones[{list(zones)[int(found[1])]!r}]", str(error))
+            raise SignoriniError(named, error.status) from None
+        self._functions, self._handle = functions, handle.value
+        self._owner = Owner(functions.surface_free, self._handle)
+        self._do("surface_view", ctypes.byref(data))
         self.summary, self.structure = data.summary.decode(), data.rows
 
         def array(name, shape, kind=real):
             found = copied(getattr(data, name), shape, kind)
             return np.zeros(shape, kind) if found is None else found
 
-        pairs, dim = data.pairs, data.dim
+        self.pairs, self.dim = pairs, dim = data.pairs, data.dim
         self.friction, self._paired_gaps = array("friction", (pairs, 4)), array("gaps", (pairs,))
-        self._areas, self._tangents = array("areas", (pairs,)), array("tangents", (pairs, dim))
-        self._normals = array("normals", (pairs, dim))
+        self._areas, self._normals = array("areas", (pairs,)), array("normals", (pairs, dim))
+        self._frames = frames_of(self._normals, array("tangents", (pairs, dim)))
         starts = array("zone_start", (len(zones) + 1,), i64)
         self._find(array("nodes", (pairs,), i64), starts)
 
@@ -103,41 +123,42 @@ class Zones(Remade):
                 earlier = np.flatnonzero(nodes[:begin] == contact.nodes[pair])
                 places[pair] = earlier[(self._normals[earlier] @ contact.normals[pair]).argmax()]
             self.places[name] = places
-        # The first zone that has a joined pair tells its numbers.
+        # The first zone that has a joined pair tells its numbers, but for its gap, which is the mean of all by area.
         self._of_own = np.concatenate(list(self.places.values()))
         self._first = np.unique(self._of_own, return_index=True)[1]
+        self._shares = {name: self.contacts[name].areas / self._areas[place] for name, place in self.places.items()}
 
     def gaps(self):
         """The gaps of all pairs, from those of the zones' contacts."""
         return self.joined("gap", {name: contact.gaps for name, contact in self.contacts.items()})
 
-    def joined(self, what, values):
-        """Numbers for each pair from those of each zone by name; other values as they are.
+    def joined(self, what, values, count=1):
+        """Numbers for each pair, count of them, from those of each zone by name; other values as they are.
 
-        A pair of several zones has the numbers of the first; but the gap of all of its parts, while they are those paired.
+        A pair of several zones has the numbers of the first, but the mean of their gaps, by area.
         """
         if not isinstance(values, dict):
             return values
         self._check(what, values)
-        parts = []
-        for name, contact in self.contacts.items():
-            part = reals(f"{what}[{name!r}]", values[name])
-            own = part.shape[:1] == (contact.pairs,)
-            if part.ndim > 1 and not own:
-                raise ValueError(f"{what}[{name!r}] has the shape {part.shape}: give the numbers of one pair, or of each of "
-                                 f"its {contact.pairs} pairs; for cases that differ an array for the pairs of all zones, "
-                                 "one zone after the other")
-            parts.append(part if own else np.broadcast_to(part, (contact.pairs, *part.shape)))
-        if len({part.shape[1:] for part in parts}) > 1:
-            shapes = ", ".join(f"{name!r} {part.shape}" for name, part in zip(self.contacts, parts))
-            raise ValueError(f"{what} has as many numbers for a pair in one zone as in another: {shapes}")
+        parts = [self._part(f"{what}[{name!r}]", values[name], contact.pairs, count, count == 1 or what == "slip0")
+                 for name, contact in self.contacts.items()]
         own = np.concatenate(parts)
         found = own[self._first]
-        if what == "gap" and own.ndim == 1:
-            paired = np.concatenate([contact._paired_gaps for contact in self.contacts.values()])
-            changes = np.bincount(self._of_own, own != paired, len(found))
-            found = np.where(changes == 0, self._paired_gaps, found)
+        if what == "gap":
+            found[:] = 0.0
+            np.add.at(found, self._of_own, np.concatenate(list(self._shares.values())) * own)
         return found
+
+    @staticmethod
+    def _part(name, values, pairs, count, scalar):
+        """Numbers for each pair of a zone, (pairs,) or (pairs, count)."""
+        shapes = [(pairs, 1), (pairs,)] if count == 1 else [(pairs * count,), (pairs, count)]
+        one = "one number" if scalar else f"the {count} numbers of one pair"
+        asked = (f"{one}, or those, shape {shapes[-1]}, of each of its {pairs} pairs; for cases that differ an array for the "
+                 "pairs of all zones, one zone after the other")
+        if values is not None and count > 1 and np.shape(values) == (count,):
+            values = np.broadcast_to(reals(name, values), shapes[-1])
+        return fit(name, values, shapes, asked, scalar=scalar)
 
     def _check(self, what, values):
         known = ", ".join(map(repr, self.contacts))
@@ -149,48 +170,49 @@ class Zones(Remade):
                 raise KeyError(f"{what} lacks the zone {name!r}: give numbers for each of {known}")
 
     def of(self, result, name):
-        """The part of a result that belongs to a zone, in the frames of its own pairs.
+        """The part of a result that belongs to a zone.
 
-        The force of a pair of several zones is shared by areas, so that each has the pressure.
+        The force of a pair of several zones is shared by areas, so that each has the pressure, and its motion is that from
+        the gap of the zone, so that each has the clearance. It keeps its normal; tangents are those of the zone's own pair.
         """
         self._check("zone", {**dict.fromkeys(self.contacts), name: None})
         place, contact = self.places[name], self.contacts[name]
         cut = ("d", "F", "state", "motion", "radius_d", "radius_F", "escape")
         parts = {field: None if getattr(result, field) is None else getattr(result, field)[place] for field in cut}
-        share = contact.areas / self._areas[place]
-        shared = np.flatnonzero(share != 1)
+        share = self._shares[name]
+        shared, frames = np.flatnonzero(share != 1), None
         for field in ("F", "radius_F"):
             if parts[field] is not None:
                 parts[field][shared] *= share[shared, None]
-        for field in ("d", "F", "motion", "escape"):
-            if parts[field] is not None:
-                self._turn(parts[field], contact, place, shared)
+        if len(shared):
+            frames, turn = self._leaning(contact, shared, self._frames[place[shared]])
+            for field in ("d", "F", "motion", "escape"):
+                if parts[field] is not None:
+                    parts[field][shared, 1:] = np.einsum("pij,pj->pi", turn, parts[field][shared, 1:])
+            with np.errstate(invalid="ignore"):
+                lifted = contact.gaps[shared] - self.gaps()[place[shared]]
+            parts["d"][shared, 0] += np.where(np.isfinite(lifted), lifted, 0.0)  # infinite ones never touch
         second = None if result.second is None else self.of(result.second, name)
-        return result._replace(contact=self.contacts[name], second=second, **parts)
+        return result._replace(contact=contact, second=second, frames=frames, **parts)
 
-    def _turn(self, vectors, contact, place, shared):
-        """Turns tangential parts from the frames of joined pairs to those of a zone's own, in 3D."""
-        if contact.dim == 2 or not len(shared):
-            return
-        joined = place[shared]
-        first = self._tangents[joined]
-        second = np.cross(self._normals[joined], first)
-        along, across = (np.sum(contact.tangents[shared] * tangent, axis=1) for tangent in (first, second))
-        size = np.hypot(along, across)
-        c, s, (one, two) = along / size, across / size, vectors[shared, 1:].T
-        vectors[shared, 1:] = np.array([c * one + s * two, c * two - s * one]).T
+    @staticmethod
+    def _leaning(contact, shared, joined):
+        """Frames of a zone's pairs that lean to the normals of joined ones, and the turns of tangential parts to them."""
+        normals, tangents = joined[:, 0], contact.tangents[shared]
+        tangents = tangents - np.sum(normals * tangents, axis=1, keepdims=True) * normals
+        tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+        frames = frames_of(contact.normals, contact.tangents)
+        frames[shared] = frames_of(normals, tangents)
+        return frames, np.einsum("pik,pjk->pij", frames[shared, 1:], joined[:, 1:])
 
     def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
         """Writes the mesh of the zones with the fields of all to one file; see SurfacePairs.write.
 
         slip0, gap: those of the step, in arrays for all pairs or dicts by the names of zones.
         """
-        def by_zone(what, values):
-            values = self.joined(what, values)
-            return [np.asarray(values)[place] if np.ndim(values) else values for place in self.places.values()]
-
-        parts = [self.of(result, name) for name in self.contacts]
-        write_zones(path, cells, list(zip(self.contacts.values(), parts, by_zone("slip0", slip0), by_zone("gap", gap))), u)
+        gap = self.gaps() if gap is None else self.joined("gap", gap)
+        first = next(iter(self.contacts.values()))
+        self._write(path, cells, first, result, u, self.joined("slip0", slip0, self.dim - 1), gap)
 
     def penetration(self, u):
         """The deepest Penetration of all zones, or None."""
