@@ -247,7 +247,7 @@ class Model(Remade):
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
         Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
         in one zone and master in another; zones that cut a smooth surface have one pair for a node of the cut, with the
-        numbers of the first of them. A Zone in the place of SurfacePairs has a law of its own, which a case
+        numbers of the first of them and the mean of the gaps, by area. A Zone in the place of SurfacePairs has a law of its own, which a case
         without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict too, with
         the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
