@@ -14,7 +14,7 @@ use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
 
-/// The image of a node: the place of its motion among those of the images, and the node.
+/// The image of a node, or of a face: the place of its motion among those of the images, and its number in the model.
 pub(super) type Image = (usize, usize);
 
 /// Images with their numbers.

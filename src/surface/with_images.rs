@@ -65,7 +65,7 @@ impl WithImages {
         // Rows depend on the cover of nodes up to five faces away, and fitted normals on two more.
         let layers = if settings.shapes.contains(&TrueShape::Fitted) { 7 } else { 5 };
         let faces = layers_beyond(&mut numbering, (slave, layers), watch)?;
-        let own = Extended::new(&mut numbering, slave, &faces)?;
+        let own = Extended::new(&mut numbering, slave, &faces, watch)?;
         on.see(&numbering.images);
         let mut master = None;
         if let Some((side, on, reach)) = opposite {
@@ -79,7 +79,7 @@ impl WithImages {
             };
             of_master.relate((side, on), watch)?;
             let faces = images_near(of_master, (side, on), &near, watch)?;
-            master = Some(Extended::new(of_master, side, &faces)?);
+            master = Some(Extended::new(of_master, side, &faces, watch)?);
         }
         let has_some = |side: &Extended| !side.origins.is_empty();
         let is_alone = !has_some(&own) && !master.as_ref().is_some_and(has_some);
@@ -127,11 +127,12 @@ impl Extended {
     /// A side with images of some of its faces, by the places of their motions.
     ///
     /// # Errors
-    /// Too many images.
+    /// Too many images; what ends the watch.
     fn new(
         numbering: &mut Numbering,
         side: &Side<'_>,
-        faces: &[(usize, usize)],
+        faces: &[Image],
+        watch: &mut Watch<'_, '_>,
     ) -> Result<Extended, Error> {
         let Faces { start, nodes } = side.faces;
         let mut all = Extended {
@@ -141,6 +142,7 @@ impl Extended {
             origins: faces.iter().map(|(_, face)| *face).collect(),
         };
         for &(place, face) in faces {
+            watch.goes_on()?;
             let (nodes, corners) = (side.face(face).nodes, side.corners(face).len());
             let first = all.nodes.len();
             for &node in nodes {
@@ -168,7 +170,7 @@ impl Extended {
     }
 }
 
-/// The images of faces up to so many layers beyond the boundaries, by the places of their motions.
+/// The images of faces, not of nodes, up to so many layers beyond the boundaries.
 ///
 /// # Errors
 /// Too many images; what ends the watch.
@@ -179,6 +181,7 @@ fn layers_beyond(
 ) -> Result<Vec<Image>, Error> {
     let mut around: HashMap<usize, Vec<usize>> = HashMap::new();
     for face in 0..side.count() {
+        watch.goes_on()?;
         side.face(face).nodes.iter().for_each(|node| around.entry(*node).or_default().push(face));
     }
     let (mut found, mut known): (Vec<Image>, HashSet<Image>) = Default::default();
@@ -202,8 +205,8 @@ fn layers_beyond(
     Ok(found)
 }
 
-/// The images of faces that reach into a box, by the places of their motions: image by image from the side itself, as none
-/// is nearer than those between.
+/// The images of faces that reach into a box, in the host's unit: image by image from the side itself, as none is nearer than
+/// those between.
 ///
 /// # Errors
 /// Too many images; what ends the watch.
