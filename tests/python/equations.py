@@ -230,6 +230,22 @@ class Sectors(unittest.TestCase):
             self.assertEqual(dofs.tolist(), others.tolist())
             np.testing.assert_allclose(vectors, expected, atol=1e-12)
 
+        # A ring in two parts, with nodes of their own where they meet: its faces in contact are named.
+        at, cells = mesh((1.0, 1.2, 1.5))
+        parts = np.vstack([at, at]), {"quad": np.vstack([cells["quad"][::2], cells["quad"][1::2] + len(at)])}
+        with self.assertRaisesRegex(signorini.SignoriniError, "at one place on its boundary: .* give slave_faces and master_"):
+            signorini.pair_meshes(parts, hub, sector=sector)
+        apart = signorini.pair_meshes(parts, hub, slave_faces=interface, sector=sector)
+        np.testing.assert_allclose(apart.areas, named.areas, rtol=1e-12)
+
+    def test_a_sector_without_equations(self):
+        """Boundaries that nothing holds together are warned of."""
+        places, (ring, hub), _, _ = self.ring(5, False, 2)
+        springs = np.ones(places.size), np.arange(places.size), np.arange(places.size + 1)
+        contact = signorini.pair_surfaces(places, ring, hub, sector=(5, (0.0, 0.0)))
+        with self.assertWarnsRegex(UserWarning, "zone 'ring': pairs of a Sector without equations.*: give equations=sector_eq"):
+            signorini.Model.from_surfaces(springs, {"ring": contact})
+
     def test_boundaries_that_do_not_match(self):
         places, (ring, hub), _, first = self.ring(5, False, 2)
         bodies = 1 * (np.arange(len(places)) >= first)

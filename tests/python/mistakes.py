@@ -155,6 +155,8 @@ class Mistakes(unittest.TestCase):
         for word in ("zone 'cut'", "across the plane x = 0", "symmetry=[(0, 0)]"):
             self.assertIn(word, sentence)
         self.assertEqual(warnings_of(left, symmetry=[(0, 0.0)]), [])
+        across = (-np.sin(np.pi / 2), np.cos(np.pi / 2))  # 6e-17 along the other axis
+        self.assertEqual(warnings_of(left, symmetry=[(across, 0.0)]), [])
         self.assertEqual(warnings_of(np.concatenate([left, left + 1])), [])  # clamped
         self.assertEqual(warnings_of([8]), [])  # the slave alone
         self.assertEqual(warnings_of(left, axisymmetric=True), [])  # the axis of revolution

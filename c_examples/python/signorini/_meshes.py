@@ -5,7 +5,7 @@ import numpy as np
 from ._arrays import integers, reals
 from ._library import SignoriniError
 from ._mesh import TYPES, points
-from ._sector import Sector, without_cuts
+from ._sector import checked, without_cuts
 from ._skin import corners, dimension, skin, turned
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
@@ -33,7 +33,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
     has a volume. The rest: as for pair_surfaces.
     """
-    sector = pairing.get("sector") and Sector(*pairing["sector"])
+    sector = None if pairing.get("sector") is None else checked(pairing["sector"])
     first = _Mesh("slave", slave, sector)
     if isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         if master_faces is not None:
@@ -60,6 +60,9 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
             if given is None and f"shape of the {side}" in str(error):
                 raise SignoriniError(f"{error}: give {side}_faces, those on the shape, in the place of the whole skin",
                                      error.status) from None
+        if None in (slave_faces, master_faces) and "stand at one place" in str(error):
+            raise SignoriniError(f"{error}, or give slave_faces and master_faces, those in contact, in the place of whole "
+                                 "skins", error.status) from None
         raise
 
 

@@ -258,8 +258,12 @@ class Model(Remade):
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
+            zone = f"zone {name!r}: " if name else ""
             if not one.pairs:
-                warnings.warn(f"zone {name!r}: {one.summary}" if name else one.summary, stacklevel=2)
+                warnings.warn(zone + one.summary, stacklevel=2)
+            if one.is_sector and equations is None:
+                warnings.warn(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "
+                              "equations=sector_equations(coordinates, sector), or those of your own", stacklevel=2)
         rows = (zones or contact).with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)

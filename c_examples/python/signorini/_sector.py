@@ -31,22 +31,44 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
     coordinates = points(coordinates)
     count, dim = coordinates.shape
     dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else nodal_dofs("dofs", dofs)
+    sector = checked(sector)
     axis = _axis(sector, dim)
-    second, first, on_axis = _boundaries(coordinates, sector, bodies)
-    if not second:
+    images, on_axis = _boundaries(coordinates, sector, bodies)
+    first_of = {}
+    for node, same in images:
+        if len(same) > 1:
+            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
+                             "tells them apart")
+        if node not in first_of:  # of two sectors, each boundary is the image of the other
+            first_of[same[0]] = node
+    if not first_of:
         raise ValueError(f"no node is the image of another, turned by one of {sector.count} sectors about the axis: "
                          "nodes of the two boundaries must match")
     # A turn leaves the part along the axis.
     kept = abs(axis).argmax()
     found = [(int(dofs[node, c]), [int(dofs[node, kept])] * (dim - 2), [axis[c] / axis[kept]] * (dim - 2))
              for node in on_axis for c in range(dim) if dim == 2 or c != kept]
+    second, first = list(first_of), list(first_of.values())
     return turned_equations(dofs[second], dofs[first], _turn(sector, dim)) + found
+
+
+def checked(sector):
+    """The Sector of a caller, whose place and axis are not looked at; a tuple is one too."""
+    try:
+        sector = Sector(*sector)
+    except TypeError:
+        raise TypeError(f"sector is {sector!r}: give a Sector, its count, a point of its axis and the direction of "
+                        "that") from None
+    if not isinstance(sector.count, (int, np.integer)) or sector.count < 2:
+        raise ValueError(f"count of a Sector is {sector.count!r}: give the number of sectors of the whole, an integer of at "
+                         "least 2")
+    return sector
 
 
 def without_cuts(faces, coordinates, sector):
     """The faces of a skin but for those in the two boundaries, which are no surface of the whole."""
-    second, first, on_axis = _boundaries(coordinates, sector, None)
-    boundaries = [set(nodes).union(on_axis) for nodes in (second, first)]
+    images, on_axis = _boundaries(coordinates, sector, None)
+    boundaries = [{node for node, _ in images}.union(on_axis), set(on_axis).union(*(same for _, same in images))]
     return [face for face in faces if not any(nodes.issuperset(face) for nodes in boundaries)]
 
 
@@ -65,11 +87,9 @@ def _turn(sector, dim):
 
 
 def _boundaries(coordinates, sector, bodies):
-    """Nodes on the second boundary, those on the first whose images they are, and nodes on the axis."""
+    """Nodes on the first boundary, each with those of its body at its image on the second, and nodes on the axis."""
     count, dim = coordinates.shape
     point = fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}")
-    if not sector.count >= 2:
-        raise ValueError(f"count of a Sector is {sector.count}: give the number of sectors of the whole, at least 2")
     bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
     arms, near = coordinates - point, _NEAR * np.ptp(coordinates, axis=0).max()
     images = arms @ _turn(sector, dim).T
@@ -83,7 +103,7 @@ def _boundaries(coordinates, sector, bodies):
     for step in product((-1, 0, 1), repeat=dim):
         wanted = (others + step) @ _FACTORS[:dim]
         near_one |= keys[np.searchsorted(keys, wanted) % len(keys)] == wanted
-    first_of, on_axis = {}, []
+    found, on_axis = [], []
     for node in map(int, np.flatnonzero(near_one)):
         image = images[node]
         if np.linalg.norm(image - arms[node]) <= near:
@@ -92,9 +112,6 @@ def _boundaries(coordinates, sector, bodies):
         around = product(*((cell - 1, cell, cell + 1) for cell in others[node].tolist()))
         same = [other for cell in around for other in cells.get(cell, ())
                 if bodies[other] == bodies[node] and np.linalg.norm(arms[other] - image) <= near]
-        if len(same) > 1:
-            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
-                             "tells them apart")
-        if node not in first_of:  # of two sectors, each boundary is the image of the other
-            first_of.update((other, node) for other in same)
-    return list(first_of), list(first_of.values()), on_axis
+        if same:
+            found.append((node, same))
+    return found, on_axis

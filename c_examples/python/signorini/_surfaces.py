@@ -13,7 +13,7 @@ from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
-from ._sector import Sector
+from ._sector import checked
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
@@ -184,10 +184,9 @@ class SurfacePairs(Remade):
         self.symmetry_axes = along + ([0] if axisymmetric else [])
         settings.symmetry_planes = len(across)
         settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
-        if sector is not None:
-            sector = Sector(*sector)
-            if not sector.count:
-                raise ValueError("count of a Sector is 0: give the number of sectors of the whole, at least 2")
+        self.is_sector = sector is not None
+        if self.is_sector:
+            sector = checked(sector)
             point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
@@ -342,7 +341,8 @@ class SurfacePairs(Remade):
         """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
 
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
-        returns them.
+        returns them. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
+        normals: result.contact.write of all zones has those of the pairs.
         """
         self._write(path, cells, self, result, u, slip0, self.gaps if gap is None else gap)
 
@@ -446,9 +446,13 @@ def _shape(obstacle, dim):
 
 def _planes(symmetry, dim):
     """Directions across planes of symmetry, and their places."""
-    across, places = np.zeros((len(symmetry), dim)), np.zeros(len(symmetry))
-    for k, (direction, place) in enumerate(symmetry):
-        places[k] = place
+    try:
+        planes = [(direction, float(place)) for direction, place in symmetry]
+    except (TypeError, ValueError):
+        raise TypeError(f"symmetry is {symmetry!r}: give a list of planes, for each the axis or the direction across it, and a "
+                        "number, where it stands along that: [(0, 0.0)]") from None
+    across, places = np.zeros((len(planes), dim)), np.array([place for _, place in planes])
+    for k, (direction, _) in enumerate(planes):
         if np.ndim(direction):
             asked = f"the axis or the direction across it, shape {(dim,)}"
             across[k] = fit(f"symmetry[{k}]", direction, [(dim,)], asked)
