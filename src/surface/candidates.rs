@@ -85,7 +85,9 @@ impl<'a> SearchFaces<'a> {
         near.into_iter().filter(|&at| self.normals[at].dot(&normal) < 0.0).any(|at| {
             let flat = plane.flatten(&self.side.face(at));
             let below = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local));
-            below.is_some_and(|local| (least..depth).contains(&-flat.height(local)))
+            // Bodies that are flush end at the same depth.
+            below
+                .is_some_and(|local| (least..(1.0 + BEYOND) * depth).contains(&-flat.height(local)))
         })
     }
 }

@@ -9,8 +9,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::pairs::{SurfacePair, SurfacePairs};
+use super::pairs::{SurfacePair, SurfacePairs, Weight};
 use crate::error::{Argument, Error};
+use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
@@ -113,7 +114,9 @@ impl SurfacePairs {
         for (j, pair) in self.pairs.iter().enumerate() {
             let sides = [(pair.slaves(), 1.0), (pair.masters(), -1.0)];
             for (nodes, sign) in sides {
-                for &(node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
+                // A node of which a row has rounding alone stands beside its pairs.
+                let has_part = |(_, weight): &&Weight| weight.abs() > ROUNDING_OF_SUM;
+                for &(node, weight) in nodes.iter().filter(has_part) {
                     let share = pair.area * weight.abs();
                     // An image is not there, but its node is.
                     let (node, motion) = self.images.home(node);

@@ -112,6 +112,17 @@ fn a_uniform_traction_is_uniform_everywhere() {
     }
 }
 
+/// A node of which a row has rounding alone has no pressure: it would be a number of chance.
+#[test]
+fn nodes_with_weights_of_rounding_have_no_fields() {
+    let (_, mut pairs) = found([Shape::Q4, Shape::Q4], Pairing::DualMortar);
+    let [d, force, slip0] = random(&pairs);
+    let results = PairResults { gap: None, reference_slip: Some(&slip0), d: &d, force: &force };
+    let before = pairs.fields(&results).unwrap();
+    pairs.pairs[3].nodes.push((1000, 1e-13));
+    assert_eq!(pairs.fields(&results).unwrap(), before);
+}
+
 /// Rows do not depend on the numbers of the degrees of freedom.
 #[test]
 fn degrees_of_freedom_follow_the_host() {

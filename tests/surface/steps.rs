@@ -91,6 +91,22 @@ fn plates_that_are_thinner_than_elements_touch_between_them_alone() {
     }
 }
 
+/// Whole plates beside each other, flush, of which one reaches into the other by a thousandth: their large sides look away from each
+/// other, and are not paired through both.
+#[test]
+fn flush_plates_touch_at_their_rims_alone() {
+    for pairing in PAIRINGS {
+        for thickness in [0.4, 1.0, 3.0] {
+            let left = skin([0.0, thickness], 5.0, 2);
+            let right = skin([0.0, thickness], 5.0, 4).mapped(|[x, y, z]| [x + 9.99, y, z]);
+            let settings = SurfaceSettings { pairing, ..SurfaceSettings::default() };
+            let found = TwoSheets::new(3, left, right).pair(&settings).unwrap();
+            let through = found.pairs.iter().filter(|pair| pair.normal[2].abs() > 0.5).count();
+            assert_eq!(through, 0, "{pairing:?}, {thickness}: {}", found.summary());
+        }
+    }
+}
+
 /// The two sides of a shell are in one plane: what overlaps it a little is paired.
 #[test]
 fn shells_of_no_thickness_may_be_overlapped() {
