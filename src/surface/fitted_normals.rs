@@ -27,9 +27,6 @@ use crate::problem::Islands;
 /// divisions of a circle whose nodes are shifted by a fifth have them.
 const SMOOTH: f64 = 0.82;
 
-/// Fewer nodes than this around a node determine a quadric badly.
-const FEW: usize = 9;
-
 /// How dear slopes, and products with heights, are beside squares: nodes at the end of a patch have three places along an axis,
 /// through which squares alone lead to the right slope, and those in one layer do not tell of a slope across it.
 const DEAR: [f64; 2] = [3.0, 30.0];
@@ -134,13 +131,14 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
         watch.goes_on()?;
         let mut near = ring(surface, &BTreeSet::from([node]));
         let is_linear = side.face(faces[0]).kind.mids().next().is_none();
-        if is_linear || near.len() < FEW {
+        // Fewer nodes than the largest face has determine a quadric badly.
+        if is_linear || near.len() < MOST_NODES {
             near = ring(surface, &near);
         }
         near.remove(&node);
         let from = near.iter().map(|&other| side.position(other) - side.position(node));
         // Two nodes may stand at one place.
-        let from: Vec<Vector3> = from.filter(|x| *x != Vector3::zeros()).collect();
+        let from: Vec<Vector3> = from.filter(|x| x.norm() > 0.0).collect();
         normals.insert((surface, node), fit(mean(side, faces, node), &from, is_linear));
     }
     let of_face = |(at, &surface): (usize, &usize)| {

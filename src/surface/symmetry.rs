@@ -192,6 +192,7 @@ impl OnPlanes {
         told.extend(self.across.iter().map(|(node, across)| (*node, given(across))));
     }
 }
+
 impl Side<'_> {
     /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand; zero
     /// where they cancel.
