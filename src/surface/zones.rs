@@ -48,8 +48,9 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
         ..SurfacePairs::default()
     };
     let mut starts = vec![0];
-    // The places of the pairs of a node.
+    // The places of the pairs of a node, and the rows that are summed for each pair.
     let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut parts: Vec<Vec<SurfacePair>> = Vec::new();
     let points = zones.iter().flat_map(|zone| &zone.contact.pairs).map(|pair| pair.point);
     let size = points.flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
     for ContactZone { name, contact, .. } in zones {
@@ -65,19 +66,20 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
         for pair in &contact.pairs {
             let pair = pair.renumbered(&contact.images, &numbers);
             let of_node = places.entry(pair.slave).or_default();
-            let same = of_node.iter().find(|&&at| joined.pairs[at].is_of_the_surface_of(&pair));
+            let same = of_node.iter().find(|&&at| parts[at][0].is_of_the_surface_of(&pair));
             if let Some(&at) = same {
-                let held = joined.held(pair.slave);
-                joined.pairs[at].take_in(&pair, &held);
+                parts[at].push(pair);
             } else {
-                of_node.push(joined.pairs.len());
-                joined.pairs.push(pair);
+                of_node.push(parts.len());
+                parts.push(vec![pair]);
             }
         }
         joined.unpaired.extend(&contact.unpaired);
         joined.report.add(&contact.report);
-        starts.push(joined.pairs.len());
+        starts.push(parts.len());
     }
+    joined.pairs =
+        parts.iter().map(|parts| SurfacePair::sum(parts, &joined.held(parts[0].slave))).collect();
     check_boundary(&joined, &starts, zones)
         .map_err(|message| Error::invalid(Argument::Pairs, message))?;
     let mut told = HashSet::new();
@@ -204,41 +206,48 @@ impl SurfacePair {
         own.dot(&others) > SAME_WAY && self.masters().is_empty() == other.masters().is_empty()
     }
 
-    /// Adds the row of the same node on other faces around it, by its area. The node is held along orthonormal directions.
-    fn take_in(&mut self, other: &SurfacePair, held: &[Vector3]) {
-        let area = self.area + other.area;
-        let [own, others] = [self.area / area, other.area / area];
-        let mean = |a: f64, b: f64| own * a + others * b;
-        let mean_vector =
-            |a: [f64; 3], b: [f64; 3]| own * Vector3::from(a) + others * Vector3::from(b);
-        self.add_nodes(other, [own, others]);
-        self.point = mean_vector(self.point, other.point).into();
-        self.gap = mean(self.gap, other.gap);
-        self.measured_gap = mean(self.measured_gap, other.measured_gap);
-        let normal = without(mean_vector(self.normal, other.normal), held);
-        let normal = unit(normal).unwrap_or_else(|| self.normal.into());
+    /// The sum of the rows of one node on parts of the faces around it, by their areas, with the frame of the first. The node
+    /// is held along orthonormal directions.
+    fn sum(parts: &[SurfacePair], held: &[Vector3]) -> SurfacePair {
+        let first = &parts[0];
+        if parts.len() == 1 {
+            return first.clone();
+        }
+        let area: f64 = parts.iter().map(|part| part.area).sum();
+        let mean = |value: fn(&SurfacePair) -> f64| {
+            parts.iter().map(|part| part.area / area * value(part)).sum::<f64>()
+        };
+        let mean_vector = |vector: fn(&SurfacePair) -> [f64; 3]| -> Vector3 {
+            parts.iter().map(|part| part.area / area * Vector3::from(vector(part))).sum()
+        };
+        let normal = unit(without(mean_vector(|part| part.normal), held));
+        let normal = normal.unwrap_or_else(|| first.normal.into());
         // The tangents hardly turn, so that slips in the frames of the zone are those of the joined pair.
-        let [first, second] = self.tangents.map(|tangent| {
+        let [along, across] = first.tangents.map(|tangent| {
             let tangent = Vector3::from(tangent);
             tangent - normal.dot(&tangent) * normal
         });
-        let first = unit(first).unwrap_or(first);
-        let second = if second == Vector3::zeros() { second } else { normal.cross(&first) };
-        self.tangents = [first.into(), second.into()];
-        (self.normal, self.area) = (normal.into(), area);
-    }
-
-    /// Adds the nodes of another row, by the shares of both.
-    fn add_nodes(&mut self, other: &SurfacePair, shares: [f64; 2]) {
+        let along = unit(along).unwrap_or(along);
+        let across = if across == Vector3::zeros() { across } else { normal.cross(&along) };
+        let mut sum = SurfacePair {
+            point: mean_vector(|part| part.point).into(),
+            normal: normal.into(),
+            tangents: [along.into(), across.into()],
+            gap: mean(|part| part.gap),
+            measured_gap: mean(|part| part.measured_gap),
+            area,
+            ..first.clone()
+        };
         // Slaves, then masters.
         let mut weights: BTreeMap<(bool, usize), f64> = BTreeMap::new();
-        for (pair, share) in [&*self, other].into_iter().zip(shares) {
-            for (at, (node, weight)) in pair.nodes.iter().enumerate() {
-                let is_master = at >= pair.slave_count;
-                *weights.entry((is_master, *node)).or_default() += share * weight;
+        for part in parts {
+            for (at, (node, weight)) in part.nodes.iter().enumerate() {
+                let is_master = at >= part.slave_count;
+                *weights.entry((is_master, *node)).or_default() += part.area / area * weight;
             }
         }
-        self.set_nodes(weights);
+        sum.set_nodes(weights);
+        sum
     }
 }
 

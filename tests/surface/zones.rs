@@ -255,6 +255,41 @@ fn zones_pass_a_uniform_pressure_where_nodes_are_folded() {
     }
 }
 
+/// Four zones of a bowl meet in a node. Each zone has another mean normal there; the sum does not depend on their order.
+#[test]
+fn the_order_of_zones_changes_no_pair() {
+    let mut rng = Rng::with_seed(9);
+    let bowl = |x: [f64; 2], z: f64| [x[0], x[1], z + 0.1 * (x[0] * x[0] + 2.0 * x[1] * x[1])];
+    for shape in SHAPES {
+        let slave = Sheet::rectangle(shape, [4; 2], [[0.0, 2.0]; 2], (0.2, &mut rng));
+        let slave = slave.mapped(|x| bowl([x[0], x[1]], 0.01)).turned();
+        let master = Sheet::rectangle(shape, [5; 2], [[0.0, 2.0]; 2], (0.2, &mut rng));
+        let both = TwoSheets::new(3, slave, master.mapped(|x| bowl([x[0], x[1]], 0.0)));
+        let mut zones: Vec<Sides> = Vec::new();
+        for part in cut(&both.slave, &both.nodes, true) {
+            zones.push([part, both.master.clone()]);
+        }
+        let settings = SurfaceSettings::default();
+        let sorted = |zones: &[Sides]| {
+            let mut pairs = paired(3, &both.nodes, zones, &settings).contact.pairs;
+            pairs.sort_by_key(|pair| pair.slave);
+            pairs
+        };
+        let expected = sorted(&zones);
+        zones.swap(0, 3);
+        zones.swap(1, 3);
+        for (pair, expected) in sorted(&zones).iter().zip(&expected) {
+            assert_eq!(pair.slave, expected.slave);
+            // Rounding of sums of four numbers of size one.
+            let is_near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+            let same = pair.normal.iter().zip(&expected.normal).all(|(a, b)| is_near(*a, *b));
+            assert!(same && is_near(pair.gap, expected.gap), "{shape:?}: {pair:?}, {expected:?}");
+            let nodes = pair.nodes.iter().zip(&expected.nodes);
+            assert!(nodes.into_iter().all(|(a, b)| a.0 == b.0 && is_near(a.1, b.1)), "{shape:?}");
+        }
+    }
+}
+
 /// A cube in a corner of a room, and a square in a corner: nodes at edges have a pair with each of the walls.
 #[test]
 fn corners_keep_a_pair_in_each_zone() {
