@@ -331,6 +331,7 @@ module signorini
         integer(c_int64_t) :: sectors = 0
         type(c_ptr) :: sector_point = c_null_ptr
         type(c_ptr) :: sector_axis = c_null_ptr
+        real(c_double) :: tangent(3) = 0
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.

@@ -217,6 +217,13 @@ struct signorini_surface_settings {
     const double *sector_point;             /**< A point of the axis, dim coordinates. */
     /** The direction of the axis, 3 entries, of any length; in 2D not read. */
     const double *sector_axis;
+    /**
+     * In 3D the direction of first tangents, as nearly as the tangent plane of each pair allows,
+     * of any length: the angle of orthotropic friction counts from it. Default 0, 0, 0: the axis
+     * most across the normals of all pairs, of equal ones the first; where the normal is along it,
+     * the axis most across that. At a plane of symmetry one tangent is across the plane.
+     */
+    double tangent[3];
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */
@@ -287,7 +294,8 @@ struct signorini_surface_data {
     const double *gaps;
     const double *areas;         /**< Area of each pair; its pressure is -F_n over this area. */
     const double *normals; /**< Unit normals, dim for each pair, outward from the slave's body. */
-    const double *tangents;      /**< First unit tangents, dim for each pair; in 3D t2 = n x t1. */
+    /** First unit tangents, dim for each pair; in 3D as settings.tangent says, and t2 = n x t1. */
+    const double *tangents;
     /** Where the force of each pair acts on the slave's body, dim for each. */
     const double *points;
     const int64_t *nodes;        /**< The slave node of each pair, ascending in each zone. */

@@ -118,6 +118,11 @@ pub struct SignoriniSurfaceSettings {
     pub sector_point: *const f64,
     /// The direction of the axis, 3 entries, of any length; in 2D not read.
     pub sector_axis: *const f64,
+    /// In 3D the direction of first tangents, as nearly as the tangent plane of each pair allows,
+    /// of any length: the angle of orthotropic friction counts from it. Default 0, 0, 0: the axis
+    /// most across the normals of all pairs, of equal ones the first; where the normal is along it,
+    /// the axis most across that. At a plane of symmetry one tangent is across the plane.
+    pub tangent: [f64; 3],
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -182,6 +187,7 @@ impl SignoriniSurfaceSettings {
             ],
             close_within: given.close_within,
             clearance: given.clearance,
+            tangent: Some(given.tangent).filter(|along| along.iter().any(|part| *part != 0.0)),
         };
         let limits = SignoriniSettings {
             time_limit: given.time_limit,

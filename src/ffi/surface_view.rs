@@ -25,7 +25,7 @@ pub struct SignoriniSurfaceData {
     pub areas: *const f64,
     /// Unit normals, dim for each pair, outward from the slave's body.
     pub normals: *const f64,
-    /// First unit tangents, dim for each pair; in 3D t2 = n x t1.
+    /// First unit tangents, dim for each pair; in 3D as settings.tangent says, and t2 = n x t1.
     pub tangents: *const f64,
     /// Where the force of each pair acts on the slave's body, dim for each.
     pub points: *const f64,

@@ -18,6 +18,17 @@ pub fn axis(axis: usize) -> Vector3 {
     Vector3::ith(axis, 1.0)
 }
 
+/// Directions of seven digits are known up to a tenth of this (radians). A tangent that is further from orthogonal to
+/// its normal belongs to another pair, or to no frame at all; one that is nearer to an axis is along it.
+pub const ERROR_OF_DIRECTION: f64 = 1e-5;
+
+/// The axis along which a vector has its smallest part, of parts that are equal but for [`ERROR_OF_DIRECTION`] the first.
+pub fn most_across(vector: Vector3) -> Vector3 {
+    let size = vector.abs();
+    let least = size.min() + ERROR_OF_DIRECTION * size.max();
+    axis(size.iter().position(|part| *part <= least).unwrap_or_default())
+}
+
 /// The turn by an angle in radians about a unit vector, right-handed.
 pub fn turn_about(axis: Vector3, angle: f64) -> Matrix3 {
     *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(axis), angle).matrix()

@@ -1,10 +1,6 @@
 //! The frame of a contact pair: its normal and its tangents.
 
-use crate::linalg::vector3::{self, Vector3, unit};
-
-/// Directions of seven digits are known up to a tenth of this (radians). A tangent that is further from orthogonal to
-/// its normal belongs to another pair, or to no frame at all; one that is nearer to an axis is along it.
-const ERROR_OF_DIRECTION: f64 = 1e-5;
+use crate::linalg::vector3::{self, ERROR_OF_DIRECTION, Vector3, most_across, unit};
 
 /// Orthonormal: the normal, then `dim - 1` tangents. In space `t2 = n x t1`.
 #[derive(Clone, Debug)]
@@ -35,7 +31,7 @@ impl Frame {
             }
             None if dim == 2 => Vector3::new(-normal.y, normal.x, 0.0),
             None => {
-                let across = vector3::axis(normal.iamin());
+                let across = most_across(normal);
                 unit(across.cross(&normal)).unwrap_or(across)
             }
         };

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use super::control::Edges;
 use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
-use super::plane;
 use super::row::{Row, add_face};
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
@@ -21,12 +20,6 @@ pub(super) fn pair_of_row(
     normal: Vector3,
 ) -> SurfacePair {
     let (area, normal) = (row.area, planes.turned(node, normal));
-    let held = planes.held(node);
-    // A frame has a tangent along a direction that is held.
-    let tangents = match held {
-        [across] if slave.dim == 3 && across.abs().max() < 1.0 => [across.cross(&normal), *across],
-        _ => plane::tangents(slave.dim, normal),
-    };
     let (nodes, slave_count) = row.into_nodes();
     let point = slave.point(&nodes[..slave_count]);
     let gap = match &nodes[slave_count..] {
@@ -43,7 +36,8 @@ pub(super) fn pair_of_row(
         slave_count,
         point: point.into(),
         normal: normal.into(),
-        tangents: tangents.map(Into::into),
+        // They follow once all normals are known.
+        tangents: Default::default(),
         gap,
         measured_gap: gap,
         area,

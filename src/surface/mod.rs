@@ -34,6 +34,7 @@ mod face;
 mod face_checks;
 mod fields;
 mod fitted_normals;
+mod frames;
 mod images;
 mod mesh;
 mod mortar;

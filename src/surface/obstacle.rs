@@ -31,14 +31,22 @@ pub(super) fn pairs(
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let SurfaceSettings { search_distance, axisymmetric, sector, close_within, clearance, .. } =
-        *settings;
+    let SurfaceSettings {
+        search_distance,
+        axisymmetric,
+        sector,
+        close_within,
+        clearance,
+        tangent,
+        ..
+    } = *settings;
     let settings = &SurfaceSettings {
         search_distance,
         axisymmetric,
         sector,
         close_within,
         clearance,
+        tangent,
         ..Default::default()
     };
     let settings = &settings.checked(side.dim)?;

@@ -19,7 +19,7 @@ use crate::problem::checked_dim;
 /// Pairs a surface with what it may touch. Surfaces that never meet give no pairs, which is no error. `monitor` has the
 /// time limit and the callback.
 ///
-/// With a shape `search_distance`, `axisymmetric`, `close_within` and `clearance` are read of the settings. A mid node of a
+/// With a shape `search_distance`, `axisymmetric`, `close_within`, `clearance` and `tangent` are read of the settings. A mid node of a
 /// quadratic face has its corners beside it in its row then, and the gap is that of the row.
 ///
 /// # Errors
@@ -43,17 +43,19 @@ pub fn pair_surfaces(
     let watch = &mut Watch::new(monitor);
     checked_dim(dim)?;
     let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)?;
-    match master {
+    let mut found = match master {
         Master::Faces(faces) => {
             let master = slave.opposite(faces)?;
-            pair_sides([slave, master], settings, watch)
+            pair_sides([slave, master], settings, watch)?
         }
         Master::RigidFaces { coordinates, faces } => {
             let rigid = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-            pair_sides([slave, rigid], settings, watch)
+            pair_sides([slave, rigid], settings, watch)?
         }
-        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, watch),
-    }
+        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, watch)?,
+    };
+    found.set_tangents(settings.tangent);
+    Ok(found)
 }
 
 /// Pairs two sides whose lists are in order.

@@ -26,7 +26,8 @@ pub struct SurfacePair {
     pub point: [f64; 3],
     /// Unit normal, outward from the slave's body.
     pub normal: [f64; 3],
-    /// Unit tangents, in the plane one (the normal turned by +90 degrees) and zero.
+    /// Unit tangents, in the plane one (the normal turned by +90 degrees) and zero; in space the first as
+    /// [`SurfaceSettings::tangent`](super::SurfaceSettings::tangent) says, the second is the normal times it.
     pub tangents: [[f64; 3]; 2],
     /// Initial gap: positive if open, negative if the surfaces overlap.
     pub gap: f64,

@@ -6,7 +6,7 @@ use super::clip::{self, Point};
 use super::curved::Curved;
 use super::face::Face;
 use super::shape::Local;
-use crate::linalg::vector3::{Vector3, axis, unit};
+use crate::linalg::vector3::{Vector3, most_across, unit};
 
 /// A plane with its axes.
 #[derive(Clone, Debug)]
@@ -22,8 +22,8 @@ pub(super) fn tangents(dim: usize, normal: Vector3) -> [Vector3; 2] {
     if dim == 2 {
         return [Vector3::new(-normal.y, normal.x, 0.0), Vector3::zeros()];
     }
-    let most_across = axis(normal.iamin());
-    let first = unit(most_across - normal.dot(&most_across) * normal).unwrap_or(most_across);
+    let across = most_across(normal);
+    let first = unit(across - normal.dot(&across) * normal).unwrap_or(across);
     [first, normal.cross(&first)]
 }
 

@@ -4,6 +4,7 @@ use super::exact_shape::Obstacle;
 use super::sector::Sector;
 use super::symmetry_plane::SymmetryPlane;
 use crate::error::{Argument, Error};
+use crate::linalg::vector3::unit;
 
 /// How the rows are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,6 +94,11 @@ pub struct SurfaceSettings {
     /// What is added to every gap then: a clearance, or an interference if it is negative. Half the thicknesses of
     /// shells are an interference.
     pub clearance: f64,
+    /// The direction that first tangents have in space, as nearly as the tangent plane of each pair allows, and from which the
+    /// angle of orthotropic friction counts; of any length. `None`: the axis that is most across the normals of all pairs, of
+    /// equal ones the first. A pair whose normal is along it has the axis that is most across its own normal. At
+    /// a plane of symmetry one tangent is across the plane: the first is the nearer one.
+    pub tangent: Option<[f64; 3]>,
 }
 
 impl SurfaceSettings {
@@ -140,6 +146,11 @@ impl SurfaceSettings {
                 "rims: nodes against surfaces have no cover that a rim could be told by: leave the \
                            default, or pair by dual mortar",
             );
+        }
+        if let Some([x, y, z]) =
+            self.tangent.filter(|along| dim == 3 && unit((*along).into()).is_none())
+        {
+            return refuse(&format!("tangent: {x}, {y}, {z} is no direction"));
         }
         let sector = self.sector.map(|sector| sector.checked(dim)).transpose()?;
         Ok(SurfaceSettings { sector, ..self.clone() })

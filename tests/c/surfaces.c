@@ -133,6 +133,8 @@ static void patch(int upper_is_slave)
     planes.symmetry_planes = upper_is_slave ? 2 : 0;
     planes.symmetry_axes = axes;
     planes.symmetry_at = places;
+    /* The length has no say. Without a direction the first of the axes along the surface. */
+    planes.tangent[1] = upper_is_slave ? 2 : 0;
     double d[3 * MOST] = {0}, F[3 * MOST] = {0}, u[3 * MOST];
     int32_t state[MOST];
 
@@ -142,6 +144,8 @@ static void patch(int upper_is_slave)
                                         &contact), 0);
     const signorini_surface_data told = surface_data(contact);
     const int64_t count = surface_data(contact).pairs;
+    const double along[] = {upper_is_slave ? 0 : 1, upper_is_slave ? 1 : 0, 0};
+    CHECK(count > 0 && memcmp(told.tangents, along, sizeof along) == 0);
     CHECK(count == (upper_is_slave ? 25 : 16) && told.pairs == count && told.n_unpaired == 0);
     CHECK(told.on_symmetry == (upper_is_slave ? 9 : 0));
     CHECK_NEAR(told.covered_area, 1);

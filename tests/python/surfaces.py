@@ -52,6 +52,19 @@ class Pairs(unittest.TestCase):
                       found.summary)
         self.assertEqual((found.uncovered.tolist(), found.beyond.tolist()), ([1, 2], [1]))
 
+    def test_first_tangents(self):
+        """A flat face whose nodes stand off it by rounding has one first tangent: that of an axis, or as it is asked for."""
+        square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+        x = np.concatenate([square + [[0, 0, 1e-16], [0, 0, 0], [0, 0, -3e-16], [0, 0, 2e-16]], square])
+        for tangent, expected in ((None, [1, 0, 0]), ((0, 5, 1), [0, 1, 0]), ((1, -1, 0), [np.sqrt(0.5), -np.sqrt(0.5), 0])):
+            found = signorini.pair_surfaces(x, [[3, 2, 1, 0]], [[4, 5, 6, 7]], tangent=tangent)
+            np.testing.assert_allclose(found.tangents, [expected] * 4, atol=1e-14)
+            np.testing.assert_array_equal(copy.deepcopy(found).tangents, found.tangents)
+        with self.assertRaisesRegex(signorini.SignoriniError, "tangent: NaN, 0, 0 is no direction"):
+            signorini.pair_surfaces(x, [[3, 2, 1, 0]], [[4, 5, 6, 7]], tangent=(np.nan, 0, 0))
+        with self.assertRaisesRegex(ValueError, "tangent has the shape"):
+            signorini.pair_surfaces(x, [[3, 2, 1, 0]], [[4, 5, 6, 7]], tangent=(1, 0))
+
     def test_adjusted(self):
         contact, down = signorini.pair_surfaces(NODES, SLAVE, MASTER), NODES.copy()
         down[:2, 1] = 0

@@ -26,6 +26,7 @@ mod rows;
 mod sectors;
 mod steps;
 mod symmetry;
+mod tangents;
 mod ties;
 mod true_shapes;
 mod zones;

@@ -153,7 +153,7 @@ class SurfaceSettings(ctypes.Structure):
         ("axisymmetric", i32), ("fitted", i32), ("time_limit", real), ("progress", Callback),
         ("user", address), ("slave_shape", address), ("master_shape", address),
         ("close_within", real), ("clearance", real), ("symmetry_normals", address), ("sectors", i64),
-        ("sector_point", address), ("sector_axis", address),
+        ("sector_point", address), ("sector_axis", address), ("tangent", real * 3),
     ]
 
 

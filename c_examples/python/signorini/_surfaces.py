@@ -80,7 +80,7 @@ master_face: the face that it has passed through; -1: a shape.  sentence: the sa
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
                   axisymmetric=False, slave_shape=None, master_shape=None, fitted=False,
-                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None):
+                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None, tangent=None):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -109,19 +109,22 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     than 35 degrees stay sharp.
     close_within: gaps of at most this size become zero.  clearance: is added to every gap then; negative: an
     interference.
+    tangent: in 3D the direction of first tangents, (3,), as nearly as the tangent plane of each pair allows, from which the
+    angle of orthotropic friction counts; None: the axis most across the normals of all pairs, of equal ones the first.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
     SignoriniError.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        (slave_shape, master_shape, fitted, close_within, clearance), sector, time_limit, progress)
+                        (slave_shape, master_shape, fitted, close_within, clearance), sector, tangent, time_limit,
+                        progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
                   dofs_per_node=0, symmetry=(), normals="averaged", rims="fold", axisymmetric=False,
                   slave_shape=None, master_shape=None, fitted=False, close_within=0.0, clearance=0.0,
-                  time_limit=0.0, progress=None, sector=None):
+                  time_limit=0.0, progress=None, sector=None, tangent=None):
     """Pairs a surface with a rigid Plane, Sphere, Cylinder, Cone, Torus or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
@@ -133,7 +136,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
-                        sector, time_limit, progress)
+                        sector, tangent, time_limit, progress)
 
 
 # Of the making of SurfacePairs: what belongs to one process.
@@ -157,12 +160,13 @@ class SurfacePairs(Remade):
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, time_limit, progress):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, tangent, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         # Without what watches the pairing: neither time_limit nor progress.
         self._made_of = (make, self._coordinates, slave, other, *copy.deepcopy((
-            pairing, search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector)))
+            pairing, search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector,
+            tangent)))
         self.slave_faces = self.drawn_faces = slave.lists
         self.coordinates = self._coordinates
         settings = sized(
@@ -190,6 +194,8 @@ class SurfacePairs(Remade):
             point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
+        if tangent is not None:
+            settings.tangent[:] = fit("tangent", tangent, [(3,)], "a direction, shape (3,)")
         # Entries of a displacement vector that has all nodes.
         self._least = (dofs_per_node or self.dim) * (self.node_count - 1) + self.dim
         if dofs is not None:

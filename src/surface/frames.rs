@@ -1,0 +1,49 @@
+//! The frames of pairs in space: which tangent is the first.
+
+use super::pairs::SurfacePairs;
+use super::plane;
+use crate::linalg::vector3::{ERROR_OF_DIRECTION, Vector3, most_across, unit};
+
+impl SurfacePairs {
+    /// Gives all pairs their tangents, the first towards a direction. Without one it is the axis most across all normals: an
+    /// axis for each pair by itself would jump between pairs whose normals differ by little.
+    pub(super) fn set_tangents(&mut self, towards: Option<[f64; 3]>) {
+        let towards = towards.and_then(|towards| unit(towards.into()));
+        let towards = towards.unwrap_or_else(|| most_across(self.mean_squares()));
+        for at in 0..self.pairs.len() {
+            let normal = Vector3::from(self.pairs[at].normal);
+            let tangents = match self.dim {
+                2 => plane::tangents(2, normal),
+                _ => tangents(normal, towards, &self.held(self.pairs[at].slave)),
+            };
+            self.pairs[at].tangents = tangents.map(Into::into);
+        }
+    }
+
+    /// Squares of the components of the normals, by area.
+    fn mean_squares(&self) -> Vector3 {
+        let square = |normal: Vector3| normal.component_mul(&normal);
+        self.pairs.iter().map(|pair| pair.area * square(pair.normal.into())).sum()
+    }
+}
+
+/// Tangents of a normal, the first towards a unit vector as nearly as may be.
+fn tangents(normal: Vector3, towards: Vector3, held: &[Vector3]) -> [Vector3; 2] {
+    let first = match held {
+        // A frame has a tangent along a direction that is held.
+        [across] => {
+            let along = across.cross(&normal);
+            let is_nearer = along.dot(&towards).abs() >= across.dot(&towards).abs();
+            let nearer = if is_nearer { along } else { *across };
+            if nearer.dot(&towards) < 0.0 { -nearer } else { nearer }
+        }
+        _ => {
+            let along = towards - normal.dot(&towards) * normal;
+            match unit(along).filter(|_| along.norm() > ERROR_OF_DIRECTION) {
+                Some(first) => first,
+                None => return plane::tangents(3, normal),
+            }
+        }
+    };
+    [first, normal.cross(&first)]
+}
