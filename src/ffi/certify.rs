@@ -122,7 +122,7 @@ pub unsafe extern "C" fn signorini_model_prove(
         let radius_d = arrays.at(11, "radius_d").optional_output(radius_d, d.len())?;
         let radius_force = arrays.at(12, "radius_F").optional_output(radius_F, d.len())?;
         arrays.check_overlap()?;
-        let states = state.map(|codes| states(at_state, codes)).transpose()?;
+        let states = state.map(|codes| parsed_states(at_state, codes)).transpose()?;
         let position = |argument| given.position(argument, MEASURED);
         let proof = model.prove(&case, d, states.as_deref()).map_err(refused(position))?;
         let proof = proof.as_ref();
@@ -137,7 +137,8 @@ pub unsafe extern "C" fn signorini_model_prove(
     })
 }
 
-fn states(at: At<'_>, codes: &[i32]) -> Outcome<Vec<State>> {
+/// The states of pairs by their codes.
+pub(super) fn parsed_states(at: At<'_>, codes: &[i32]) -> Outcome<Vec<State>> {
     let state = |(pair, code): (usize, &i32)| {
         let refuse = || at.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
         State::numbered(*code).map_or_else(refuse, Ok)

@@ -7,9 +7,9 @@ use std::ptr::null;
 use libc::c_char;
 
 use super::args::{At, c_entry};
+use super::certify::parsed_states;
 use super::guard::{self, Failure, Outcome, refused};
 use super::law;
-use super::numbers::Numbered;
 use super::surface::SignoriniFaces;
 use super::surface_fields::pair_results;
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
@@ -119,8 +119,10 @@ pub unsafe extern "C" fn signorini_surface_table(
     c_entry!(|arrays| {
         let joined = arrays.at(1, "joined").handle(joined)?;
         let results = pair_results(arrays, joined, [1, 1, 2, 3], [null(), null(), d, F])?;
-        let state = arrays.at(4, "state").required(state, joined.arrays.count)?;
+        let at_state = arrays.at(4, "state");
+        let states = at_state.required(state, joined.arrays.count)?;
         guard::reserve(joined.bytes())?;
+        let states = parsed_states(at_state, states)?;
         let at_size = arrays.at(6, "size");
         let length = at_size.size(size)?;
         if length == 0 {
@@ -137,7 +139,7 @@ pub unsafe extern "C" fn signorini_surface_table(
             let sums = sums.map_err(refused(|_| 3))?;
             let [x, y, z] = sums.force;
             let numbers = [x, y, z, sums.pressed_area, sums.largest_pressure];
-            add_row(&mut table, name, counts(&state[pairs]), numbers.map(scientific));
+            add_row(&mut table, name, counts(&states[pairs]), numbers.map(scientific));
         }
         let fitting = (0..length).rev().find(|&end| table.is_char_boundary(end.min(table.len())));
         let mut bytes = table.as_bytes()[..fitting.unwrap_or(0).min(table.len())].to_vec();
@@ -158,8 +160,8 @@ fn add_row(table: &mut String, name: &str, counts: [impl Display; 4], numbers: [
 }
 
 /// How many pairs there are, and how many are open, slip and stick.
-fn counts(states: &[i32]) -> [usize; 4] {
-    let count = |wanted: State| states.iter().filter(|&&own| own == wanted.number()).count();
+fn counts(states: &[State]) -> [usize; 4] {
+    let count = |wanted: State| states.iter().filter(|own| **own == wanted).count();
     [states.len(), count(State::Open), count(State::Slip), count(State::Stick)]
 }
 

@@ -150,8 +150,8 @@ pub(crate) fn check_diagonal(matrix: &Matrix<'_>, named: Named<'_>) -> Result<()
 fn check_not_zero(matrix: &Matrix<'_>, (name, argument): Named<'_>) -> Result<(), Error> {
     if matrix.size() > 0 && matrix.largest_diagonal() == 0.0 {
         let message = format!(
-            "{name} is zero: nothing has stiffness; if the host holds the components fixed, put \
-             positive numbers on the diagonal"
+            "{name} is zero: no motion of the pairs meets a stiffness; if the host holds the components fixed, put \
+             positive numbers on the diagonal, and if contact alone holds a body, give it soft springs"
         );
         return Err(Error::invalid(argument, message));
     }

@@ -95,6 +95,12 @@ fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
         if name.is_empty() {
             return Err(format!("zone {} has no name", index(place)));
         }
+        if name.chars().any(char::is_control) {
+            return Err(format!(
+                "the name of zone {} has a control character, as a line's end is",
+                index(place)
+            ));
+        }
         if zones[..place].iter().any(|other| other.name == name) {
             return Err(format!("two zones are named '{name}'"));
         }

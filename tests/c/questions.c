@@ -71,6 +71,11 @@ static void check_zones(int32_t base)
     CHECK_TEXT(table, "\nB on C                  2 ");
     CHECK_STATUS(signorini_surface_table(joined, d, F, state, part, sizeof part), 0);
     CHECK(strlen(part) == sizeof part - 1 && strncmp(part, table, sizeof part - 1) == 0);
+    const int32_t kept = state[0];
+    state[0] = 7;
+    CHECK_STATUS(signorini_surface_table(joined, d, F, state, part, sizeof part), -4);
+    CHECK_TEXT(signorini_last_error(), "is 7, it must be 0, 1 or 2");
+    state[0] = kept;
     CHECK_STATUS(signorini_surface_table(joined, d, F, state, part, 0), -6);
     CHECK_STATUS(signorini_surface_resultant(joined, NULL, d, F, NULL, &sums), 0);
     CHECK_NEAR(sums.force[1], 2 * 3.2 + 2 * 2);

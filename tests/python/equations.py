@@ -316,6 +316,8 @@ class Decks(unittest.TestCase):
                            ("BEAM,1,2", "BEAM needs the rotations of node 2")):
             with self.assertRaisesRegex(ValueError, part):
                 self.read(f"{deck}*MPC\n{line}\n")
+        with self.assertRaisesRegex(ValueError, "LINK,1,2: the first node lacks the direction that depends"):
+            self.read(f"{deck}*MPC\nLINK,1,2\n", number=lambda node, direction: None)
 
     def test_what_is_wrong_is_named(self):
         for deck, part in (("*EQUATION\nx\n", "line 2: x: this is no number of terms"),
@@ -325,6 +327,7 @@ class Decks(unittest.TestCase):
                            ("*EQUATION\n1\n1,1,1.,2,1,1.\n", "line 3: the equation has more terms"),
                            ("*EQUATION\n1\n1,1,0.\n", "line 3: the coefficient of the first term is 0"),
                            ("*NODE\n1,0,0\n*INCLUDE, INPUT=more.inc\n", "line 3: .*INPUT=more.inc: the file is not read"),
+                           ("*TRANSFORM, NSET=N, TYPE=C\n0,0,0,0,0,1\n", "line 1: .*TYPE=C: axes of nodes are not turned"),
                            ("*EQUATION\n2\n1,1,1.,2,4,1.\n", "line 3: .*: node 2 has no direction 4"),
                            ("*EQUATION\n2\n1,1,1.,2,0,1.\n", "line 3: .*: node 2 has no direction 0"),
                            ("*MPC, MODE=NODE\n", "line 1: .* a card with MODE=NODE is not read"),

@@ -95,6 +95,7 @@ fn zones_that_cannot_be_joined_are_named() {
     for (other, words) in [
         (zone("one", &contact, no_faces), "two zones are named 'one'"),
         (zone("", &contact, no_faces), "zone 1 has no name"),
+        (zone("a\nb", &contact, no_faces), "the name of zone 1 has a control character"),
         (zone("two", &in_space, no_faces), "zone 'two' is in 3 dimensions, unlike zone 'one'"),
         (
             zone("two", &of_rings, no_faces),

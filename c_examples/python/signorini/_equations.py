@@ -128,8 +128,8 @@ def read_equations(path, number=None, coordinates=None):
     TIE, for small motions. Other types are refused by name.
     number: a function of node and direction, both as in the deck, that gives a dof number, or None if the node has no
     such direction; None: 3 * (node - 1) + direction - 1, without rotations.  coordinates: a dict of nodes and their
-    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, and *INCLUDE are
-    refused.
+    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, *INCLUDE and
+    *TRANSFORM are refused. BEAM is that of Abaqus, which turns with its node: what CalculiX calls so keeps a distance, as LINK.
     """
     cards = _Cards(path, number or _solid, coordinates)
     with open(path, encoding="utf-8", errors="replace") as deck:
@@ -162,6 +162,9 @@ class _Cards:
             self.card = words[0].upper().replace(" ", "")
             if self.card in ("*EQUATION", "*MPC") and any(words[1:]):
                 self.fail(place, f"{line}: a card with {words[1]} is not read")
+            if self.card == "*TRANSFORM":
+                self.fail(place, f"{line}: axes of nodes are not turned: give their equations along the axes of the model, and "
+                                 "leave the card out")
             if self.card == "*INCLUDE":
                 self.fail(place, f"{line}: the file is not read: put its lines in this place, or read it by itself")
         elif self.card == "*EQUATION":

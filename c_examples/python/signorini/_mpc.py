@@ -34,6 +34,8 @@ class _Node:
 
 def _equation(dependent, terms):
     """One equation, of terms (dof number, coefficient) those of a direction that is and is not multiplied by 0."""
+    if dependent is None:
+        raise ValueError("the first node lacks the direction that depends on the others: give a number that knows it")
     terms = [(dof, factor) for dof, factor in terms if dof is not None and factor != 0]
     return dependent, [dof for dof, _ in terms], [float(factor) for _, factor in terms]
 
