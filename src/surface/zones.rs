@@ -1,6 +1,6 @@
 //! Contact zones in one set of pairs, one zone after the other.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
 use super::mesh::ON_PLANE;
@@ -148,14 +148,16 @@ fn check_boundary(
     Ok(())
 }
 
+/// The normal of the pair that a node has in a zone.
+fn normal_at(zone: &ContactZone<'_>, node: usize) -> Option<Vector3> {
+    let found = zone.contact.pairs.binary_search_by_key(&node, |pair| pair.slave);
+    found.ok().map(|at| Vector3::from(zone.contact.pairs[at].normal))
+}
+
 /// The words for a slave face of two zones of which both have the pair of a node.
 fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
     let mut known: HashMap<Vec<usize>, Vec<(usize, usize)>> = HashMap::new();
-    let normal = |zone: usize, node: usize| {
-        let pairs = &zones[zone].contact.pairs;
-        let found = pairs.binary_search_by_key(&node, |pair| pair.slave);
-        found.ok().map(|at| Vector3::from(pairs[at].normal))
-    };
+    let normal = |zone: usize, node: usize| normal_at(&zones[zone], node);
     for (place, zone) in zones.iter().enumerate() {
         for (face, ends) in zone.slave.start.windows(2).enumerate() {
             let nodes = &zone.slave.nodes[ends[0]..ends[1]];
@@ -200,8 +202,32 @@ impl Joined {
                  earlier ones, with the law of these"
             ));
         }
+        let folded = folded_at_cuts(zones);
+        if folded > 0 {
+            parts.push(format!(
+                "{folded} nodes of such cuts are folded in one zone, and have a pair in another one: pressures around them are not those of \
+                 the whole surface. Pair the slave faces of both zones in one call, with a law for each pair"
+            ));
+        }
         parts.join(". ").into()
     }
+}
+
+/// Number of nodes that are folded in one zone and have a pair on the same surface in another: on the whole surface they are
+/// one or the other.
+fn folded_at_cuts(zones: &[ContactZone<'_>]) -> usize {
+    let folds = zones
+        .iter()
+        .flat_map(|zone| zone.contact.report.folded.iter().map(move |fold| (zone, fold)));
+    let mut nodes = BTreeSet::new();
+    for (zone, fold) in folds {
+        let Some(own) = normal_at(zone, fold.into) else { continue };
+        let goes_on = |other: &ContactZone<'_>| {
+            normal_at(other, fold.node).is_some_and(|normal| own.dot(&normal) > SAME_WAY)
+        };
+        nodes.extend(zones.iter().any(goes_on).then_some(fold.node));
+    }
+    nodes.len()
 }
 
 impl SurfacePair {

@@ -291,6 +291,38 @@ fn the_order_of_zones_changes_no_pair() {
     }
 }
 
+/// A master whose slanted end crosses the cut: the node at the end of the cut is wholly covered in one zone, and in the other, where
+/// less than half of it is, in the pair of its neighbour. The summary tells. Over a master that goes on nothing is folded.
+#[test]
+fn nodes_that_are_folded_in_one_zone_alone_are_told() {
+    let mut rng = Rng::with_seed(10);
+    let slave = Sheet::rectangle(Shape::Q4, [4; 2], [[0.0, 2.0]; 2], (0.0, &mut rng));
+    for (end, told) in [(1.05, true), (2.0, false)] {
+        let master = Sheet::rectangle(Shape::Q4, [2; 2], [[0.0, 1.0], [0.0, 2.0]], (0.0, &mut rng));
+        let slanted = master.mapped(|x| [x[0] * (end + 0.3 * x[1]), x[1], x[2]]);
+        let both = TwoSheets::new(3, slave.clone().turned(), slanted);
+        let parts = cut(&both.slave, &both.nodes, false);
+        let zones: Vec<Sides> = parts.into_iter().map(|part| [part, both.master.clone()]).collect();
+        let settings = SurfaceSettings::default();
+        let found =
+            |[slave, master]: &Sides| pair(3, &both.nodes, [slave, master], &settings).unwrap();
+        let contacts: Vec<SurfacePairs> = zones.iter().map(found).collect();
+        let lists: Vec<_> = zones.iter().map(|[slave, _]| flat(slave)).collect();
+        let zone = |name, at: usize| ContactZone {
+            name,
+            contact: &contacts[at],
+            slave: Faces { start: &lists[at].0, nodes: &lists[at].1 },
+        };
+        let zones = [zone("a", 0), zone("b", 1)];
+        let summary = join_zones(&zones).unwrap().summary(&zones).to_string();
+        assert_eq!(
+            summary.contains("1 nodes of such cuts are folded in one zone"),
+            told,
+            "{summary}"
+        );
+    }
+}
+
 /// A cube in a corner of a room, and a square in a corner: nodes at edges have a pair with each of the walls.
 #[test]
 fn corners_keep_a_pair_in_each_zone() {

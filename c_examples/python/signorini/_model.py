@@ -256,6 +256,8 @@ class Model(Remade):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
                             f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
+        if zones and zones.remark:
+            warnings.warn(zones.remark, stacklevel=2)
         for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
             zone = f"zone {name!r}: " if name else ""

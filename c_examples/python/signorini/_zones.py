@@ -100,6 +100,8 @@ class Zones(Remade):
         self._owner = Owner(functions.surface_free, self._handle)
         self._do("surface_view", ctypes.byref(data))
         self.summary, self.structure = data.summary.decode(), data.rows
+        remark = re.search(r"\d+ nodes of such cuts are folded.*", self.summary)
+        self.remark = remark and f"zones: {remark[0]}"
 
         def array(name, shape, kind=real):
             found = copied(getattr(data, name), shape, kind)
