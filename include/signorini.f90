@@ -332,6 +332,7 @@ module signorini
         type(c_ptr) :: sector_point = c_null_ptr
         type(c_ptr) :: sector_axis = c_null_ptr
         real(c_double) :: tangent(3) = 0
+        real(c_double) :: period(3) = 0
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.
@@ -1883,12 +1884,22 @@ contains
         character(kind=c_char), allocatable, target :: letters(:, :)
         real(c_double), allocatable, target :: friction(:, :)
         type(refusal) :: wrong
-        integer :: i, k
+        integer :: i, k, given_numbers
         call self%release()
         call check_size(wrong, 2, 'names', size(names), size(zones), 'one for each zone')
         if (present(laws)) call check_size(wrong, 4, 'laws', size(laws), size(zones), 'one for each zone')
         if (present(numbers)) call check_size(wrong, 5, 'numbers', size(numbers, 2), size(zones), &
             'a column for each zone')
+        given_numbers = 0
+        if (present(numbers)) given_numbers = size(numbers, 1)
+        if (present(laws)) then
+            do i = 1, size(laws)
+                if (laws(i) < 0 .or. laws(i) > ubound(law_numbers, 1) .or. laws(i) == SIGNORINI_LAW_BY_PAIR) cycle
+                if (law_numbers(laws(i)) > given_numbers) call refuse(wrong, 5, 'numbers has ' // text(given_numbers) // &
+                    ' rows: the law ' // text(laws(i)) // ' of zone ' // text(i) // ' has ' // &
+                    text(law_numbers(laws(i))) // ' parameters')
+            end do
+        end if
         if (refused(wrong, info, message)) return
         allocate (given(size(zones)), letters(len(names) + 1, size(zones)), friction(3, size(zones)))
         letters = c_null_char

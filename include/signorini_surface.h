@@ -224,6 +224,12 @@ struct signorini_surface_settings {
      * the axis most across that. At a plane of symmetry one tangent is across the plane.
      */
     double tangent[3];
+    /**
+     * In the place of sectors, of a body that repeats along a line: the way from the first boundary
+     * of the mesh to the second, dim entries; default 0, 0, 0: none. Displacements of both are the
+     * same, which you give as equations.
+     */
+    double period[3];
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

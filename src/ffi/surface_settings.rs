@@ -123,6 +123,10 @@ pub struct SignoriniSurfaceSettings {
     /// most across the normals of all pairs, of equal ones the first; where the normal is along it,
     /// the axis most across that. At a plane of symmetry one tangent is across the plane.
     pub tangent: [f64; 3],
+    /// In the place of sectors, of a body that repeats along a line: the way from the first boundary
+    /// of the mesh to the second, dim entries; default 0, 0, 0: none. Displacements of both are the
+    /// same, which you give as equations.
+    pub period: [f64; 3],
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -246,15 +250,19 @@ impl SignoriniSurfaceSettings {
     /// The sector.
     fn sector(&self, at: At<'_>, dim: usize) -> Outcome<Option<Sector>> {
         let count = at.field("sectors").size(self.sectors)?;
-        if count == 0 {
-            return Ok(None);
+        let period = vector(&self.period[..dim]).into();
+        match (count, period == [0.0; 3]) {
+            (0, true) => return Ok(None),
+            (0, false) => return Ok(Some(Sector { period, ..Sector::default() })),
+            (_, true) => {}
+            (_, false) => return at.refuse_part("has sectors and a period: leave one of them out"),
         }
         let point = vector(at.field("sector_point").required(self.sector_point, dim)?).into();
         let axis = match dim {
             2 => [0.0, 0.0, 1.0],
             _ => vector(at.field("sector_axis").required(self.sector_axis, 3)?).into(),
         };
-        Ok(Some(Sector { point, axis, count }))
+        Ok(Some(Sector { point, axis, count, ..Sector::default() }))
     }
 }
 

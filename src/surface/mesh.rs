@@ -150,7 +150,10 @@ impl<'a> Side<'a> {
     /// The number of a face for a message.
     pub(super) fn named(&self, face: usize) -> String {
         if self.is_image(face) {
-            return format!("{} (turned or mirrored)", index(self.origins[face - self.own]));
+            return format!(
+                "{} (turned, mirrored or shifted)",
+                index(self.origins[face - self.own])
+            );
         }
         index(face)
     }

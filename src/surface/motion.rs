@@ -17,6 +17,11 @@ impl Motion {
         Motion { turn: Matrix3::identity(), shift: Vector3::zeros() }
     }
 
+    /// A shift.
+    pub(super) fn shift(shift: Vector3) -> Motion {
+        Motion { turn: Matrix3::identity(), shift }
+    }
+
     /// A turn about a point.
     pub(super) fn about(point: Vector3, turn: Matrix3) -> Motion {
         Motion { turn, shift: point - turn * point }

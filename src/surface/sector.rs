@@ -1,4 +1,4 @@
-//! A sector of a body that repeats about an axis.
+//! A sector of a body that repeats about an axis or along a line.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use super::motion::Motion;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{self, Vector3, turn_about, unit, vector};
 
-/// A sector of a body that consists of such sectors, each turned against the one before.
+/// A sector of a body that consists of such sectors, each turned or shifted against the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sector {
     /// A point of the axis; length.
@@ -16,16 +16,27 @@ pub struct Sector {
     pub axis: [f64; 3],
     /// Number of sectors of the whole, at least 2.
     pub count: usize,
+    /// Of a body that repeats along a line without end the way from the first boundary to the second; else zero.
+    /// Then the fields before are not read.
+    pub period: [f64; 3],
 }
 
 impl Sector {
     /// The sector with its axis as a unit vector.
     ///
     /// # Errors
-    /// Fewer than two sectors; an axis without direction; a point that is not finite.
+    /// Fewer than two sectors; an axis without direction; a point that is not finite; a period that is none.
     pub(super) fn checked(self, dim: usize) -> Result<Sector, Error> {
         let refuse =
             |what: &str| Err(Error::invalid(Argument::Settings, format!("sector: {what}")));
+        if self.is_shifted() {
+            let period = vector(&self.period[..dim]);
+            if unit(period).is_none() {
+                let [x, y, z] = self.period;
+                return refuse(&format!("its period {x}, {y}, {z} is no way"));
+            }
+            return Ok(Sector { count: 1, period: period.into(), ..Sector::default() });
+        }
         let [x, y, z] = self.axis;
         let axis = if dim == 2 { Some(vector3::axis(2)) } else { unit(self.axis.into()) };
         let Some(axis) = axis else {
@@ -38,7 +49,12 @@ impl Sector {
         if !point.iter().all(|x| x.is_finite()) {
             return refuse("its point is not finite");
         }
-        Ok(Sector { point: point.into(), axis: axis.into(), count: self.count })
+        Ok(Sector { point: point.into(), axis: axis.into(), ..self })
+    }
+
+    /// `true` of a sector that is shifted, and has no axis.
+    pub(super) fn is_shifted(&self) -> bool {
+        self.period != [0.0; 3]
     }
 
     /// The direction of the axis.
@@ -46,14 +62,28 @@ impl Sector {
         unit(self.axis.into()).unwrap_or_default()
     }
 
-    /// The nearest point of the axis to one in units of `scale`.
+    /// The nearest point of the axis to one in units of `scale`; without an axis the point itself.
     pub(super) fn foot(&self, x: Vector3, scale: f64) -> Vector3 {
+        if self.is_shifted() {
+            return x;
+        }
         let point = scale * Vector3::from(self.point);
         point + self.axis().dot(&(x - point)) * self.axis()
     }
 
+    /// The motion to the next sector, in words.
+    pub(super) fn step_in_words(&self) -> String {
+        match self.is_shifted() {
+            true => "shifted by the period".into(),
+            false => format!("turned by one of {} sectors", self.count),
+        }
+    }
+
     /// The motion of an image some sectors on.
     pub(super) fn motion(&self, by: i32) -> Motion {
+        if self.is_shifted() {
+            return Motion::shift(f64::from(by) * Vector3::from(self.period));
+        }
         let angle = f64::from(by) * TAU / self.count as f64;
         Motion::about(self.point.into(), turn_about(self.axis(), angle))
     }

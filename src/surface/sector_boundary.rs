@@ -100,10 +100,10 @@ pub(super) fn check_boundaries(
             };
             if let Some(face) = found.iter().find(holds) {
                 let message = format!(
-                    "sector: the image of slave node {}, turned by one of {} sectors, lies on slave face {} and on none of \
-                     its nodes: give the number of sectors of the whole, and nodes of the two boundaries that match",
+                    "sector: the image of slave node {}, {}, lies on slave face {} and on none of its nodes: give the number of \
+                     sectors of the whole or the period, and nodes of the two boundaries that match",
                     index(node),
-                    sector.count,
+                    sector.step_in_words(),
                     index(*face)
                 );
                 return Err(Error::invalid(Argument::Settings, message));

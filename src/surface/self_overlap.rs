@@ -63,7 +63,7 @@ pub(super) fn check(
 
 fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
     let remedy = if side.is_image(at) {
-        "give the axis of the sector, and the number of sectors, or the planes of symmetry of the whole body"
+        "give the axis of the sector and the number of sectors, or the period, or the planes of symmetry of the whole body"
     } else {
         "leave one of them out, or pair them in two calls if they belong to two contacts"
     };

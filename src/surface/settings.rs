@@ -75,7 +75,7 @@ pub struct SurfaceSettings {
     /// body. A pair whose slave node stands on a plane neither moves nor carries a force across it, and its normal is in the
     /// plane.
     pub symmetry: Vec<SymmetryPlane>,
-    /// The sector of a body that repeats about an axis, whose nodes on the second boundary are images of those on the first.
+    /// The sector of a body that repeats about an axis or along a line, whose nodes on the second boundary are images of those on the first.
     /// Pairs see the neighbours, and are those of the whole body: of two nodes that are images of each other the first has the
     /// pair, and the host's displacements obey `u = Q u'`.
     pub sector: Option<Sector>,
@@ -129,6 +129,8 @@ impl SurfaceSettings {
                 "axisymmetric: a body of revolution has no sector, leave one of them out",
             );
         }
+        let symmetry =
+            self.planes().map_err(|message| Error::invalid(Argument::Settings, message))?;
         let (within, shift) = (self.close_within, self.clearance);
         if !(within >= 0.0) {
             return refuse(&format!("close_within is {within}, it must not be negative"));
@@ -153,6 +155,26 @@ impl SurfaceSettings {
             return refuse(&format!("tangent: {x}, {y}, {z} is no direction"));
         }
         let sector = self.sector.map(|sector| sector.checked(dim)).transpose()?;
-        Ok(SurfaceSettings { sector, ..self.clone() })
+        Ok(SurfaceSettings { sector, symmetry, ..self.clone() })
+    }
+
+    /// The planes of symmetry. The axis of bodies of revolution is none of them: it need not be named.
+    ///
+    /// # Errors
+    /// A plane that no body of revolution has, in words.
+    fn planes(&self) -> Result<Vec<SymmetryPlane>, String> {
+        let mut planes = self.symmetry.clone();
+        if self.axisymmetric {
+            let axis = |plane: &SymmetryPlane| plane.at == 0.0 && plane.normal[1] == 0.0;
+            planes.retain(|plane| plane.normal[0] == 0.0 || !axis(plane));
+            if let Some(plane) = planes.iter().find(|plane| plane.normal[0] != 0.0) {
+                return Err(format!(
+                    "axisymmetric: a plane of symmetry {} is none of a body of revolution: its planes are across the axis x = 0, \
+                     which itself need not be named",
+                    plane.name()
+                ));
+            }
+        }
+        Ok(planes)
     }
 }

@@ -190,6 +190,60 @@ class Sectors(unittest.TestCase):
             self.assertEqual(contact.pairs, sectors * of_sector[2].pairs)
             self.assertIn("of the pairs on the boundary of the sector", of_sector[2].summary)
 
+    def strip(self, copies):
+        """Places, upper and lower faces of wavy lines over so many periods on each side of one; the node of the part of which
+        each is an image, and if it is of the part itself."""
+        periods = [0] + [k for k in range(-copies, copies + 1) if k]
+        places, faces, images, of_part = [], [], [], []
+        for start, count, height in ((0.0, 3, 0.01), (0.1, 4, 0.0)):
+            first, at = len(places), {}
+            for period in periods:
+                for i in range(count + (period in (0, copies))):
+                    step = period * count + i
+                    at[step] = len(places)
+                    x = start + step / count
+                    places.append([x, height + 0.01 * np.sin(2 * np.pi * x) + 0.3 * x])
+                    images.append(first + step % count)
+                    of_part.append(0 <= step < count)
+            lines = [[at[step], at[step + 1]] for step in sorted(at)[:-1]]
+            faces.append([line[::-1] for line in lines] if start else lines)
+        return np.array(places), faces, np.array(images), np.array(of_part)
+
+    def test_a_period_is_a_part_of_many(self):
+        """The part beside many of which all copies move as one, and whose pairs beyond the part never touch."""
+        found = []
+        for copies in (0, 2):
+            places, (upper, lower), images, of_part = self.strip(copies)
+            dofs = np.arange(places.size).reshape(-1, 2)
+            if copies:
+                sector, others = None, np.flatnonzero(~of_part)
+                equations = signorini.turned_equations(dofs[others], dofs[images[others]], np.eye(2))
+            else:
+                sector = signorini.Period((1.0, 0.3))
+                bodies = np.array([0] * 4 + [1] * 5)
+                equations = signorini.sector_equations(places, sector, bodies=bodies)
+                self.assertEqual(len(equations), 4)
+            contact = signorini.pair_surfaces(places, upper, lower, sector=sector, search_distance=0.2)
+            gaps = np.where(of_part[contact.nodes], contact.gaps, np.inf)
+            load = np.zeros((len(places), 2))
+            load[of_part, 1] = np.where(images[of_part] < 3, -0.1 * (1 + 0.9 * np.cos(images[of_part])), 0)
+            load[of_part, 0] = np.where(images[of_part] < 3, 0.01, 0)
+            K = 10.0 * np.repeat(of_part, 2), np.arange(places.size), np.arange(places.size + 1)
+            model = signorini.Model.from_surfaces(K, contact, equations=equations)
+            result = model.solve(load.ravel(), gap=gaps, mu=0.2)
+            self.assertEqual(result.status, 0)
+            self.assertTrue((result.F[:, 0] < 0).sum() >= 2)
+            u = model.recover(result.d, load.ravel()).reshape(-1, 2)
+            own = np.argsort(contact.nodes)[:3]
+            found.append((u[of_part], contact.areas[own], result.F[own]))
+        for ours, theirs in zip(*found):
+            # Rounding of places and of the solution.
+            np.testing.assert_allclose(ours, theirs, atol=1e-12)
+        with self.assertRaisesRegex(ValueError, "no node is the image of another, shifted by the way of the Period"):
+            signorini.sector_equations(self.strip(0)[0], signorini.Period((0.9, 0.3)))
+        with self.assertRaisesRegex(ValueError, "way has the shape"):
+            signorini.pair_surfaces(*self.strip(0)[:1], *self.strip(0)[1], sector=signorini.Period((1.0, 0.3, 0.0)))
+
     def test_nodes_on_the_axis_stay_there(self):
         axis = np.array([1.0, 2, 2]) / 3
         places = np.array([[0, 0, 0], [3, 0, 0], [-1, 2, 2.0]])
@@ -254,7 +308,7 @@ class Sectors(unittest.TestCase):
         twice = np.concatenate([places, places])
         with self.assertRaisesRegex(ValueError, r"the image of node 0 is at the place of nodes 3 and \d+: give bodies"):
             signorini.sector_equations(twice, signorini.Sector(5, (0.0, 0.0)))
-        with self.assertRaisesRegex(signorini.SignoriniError, "give the axis of the sector, and the number of sectors"):
+        with self.assertRaisesRegex(signorini.SignoriniError, "give the axis of the sector and the number of sectors"):
             signorini.pair_surfaces(places, ring, hub, sector=(9, (0.0, 0.0)))
         # Two zones, each with one boundary of the ring.
         zones = {name: signorini.pair_surfaces(places, faces, hub, sector=(5, (0.0, 0.0)), search_distance=0.5)

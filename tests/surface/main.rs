@@ -19,6 +19,7 @@ mod overlap;
 mod parts_of_faces;
 mod patch;
 mod penetration;
+mod periods;
 mod press_fit;
 mod quadrilaterals;
 mod reach;

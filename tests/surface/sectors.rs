@@ -198,7 +198,8 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn a_sector_has_the_solution_of_the_whole_body() {
     let (rng, mut states) = (&mut Rng::with_seed(41), vec![]);
-    let sector = Sector { point: [0.0, 0.0, 0.3], axis: [0.0, 0.0, 2.0], count: 4 };
+    let sector =
+        Sector { point: [0.0, 0.0, 0.3], axis: [0.0, 0.0, 2.0], count: 4, ..Sector::default() };
     for kinds in [
         [(Cells::Boxes, Order::Linear); 2],
         [(Cells::Wedges, Order::Edges), (Cells::Boxes, Order::Edges)],

@@ -538,3 +538,25 @@ fn wrong_planes_are_refused() {
     far.report.idle_planes.clear();
     assert_eq!(far, sheets.pair(&SurfaceSettings::default()).unwrap());
 }
+
+/// Bodies of revolution may name their axis, which changes nothing. A plane along it is none of theirs.
+#[test]
+fn of_rings_have_planes_across_the_axis() {
+    let nodes = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]].repeat(2);
+    let [slave, master] = [vec![vec![0, 1], vec![1, 2]], vec![vec![5, 4], vec![4, 3]]];
+    let found = |symmetry: &[SymmetryPlane]| {
+        let settings = SurfaceSettings {
+            axisymmetric: true,
+            symmetry: symmetry.to_vec(),
+            ..SurfaceSettings::default()
+        };
+        pair(2, &nodes, [&slave, &master], &settings)
+    };
+    let alone = found(&[]).unwrap();
+    assert_eq!(alone.pairs, found(&[SymmetryPlane::across(0, 0.0)]).unwrap().pairs);
+    for wrong in [SymmetryPlane::across(0, 2.0), SymmetryPlane { normal: [1.0, 1.0, 0.0], at: 0.0 }]
+    {
+        let error = found(&[wrong]).unwrap_err().to_string();
+        assert!(error.contains("is none of a body of revolution"), "{error}");
+    }
+}

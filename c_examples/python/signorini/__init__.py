@@ -59,14 +59,14 @@ from ._mesh import write_mesh, write_series
 from ._meshes import pair_meshes
 from ._model import Model
 from ._results import Enclosure, LcpResult, Progress, Result
-from ._sector import Sector, sector_equations
+from ._sector import Period, Sector, sector_equations
 from ._surfaces import (Cone, Cylinder, Fields, Penetration, Plane, Resultant, RigidFaces, Sphere, SurfacePairs, Torus,
                         pair_obstacle, pair_surfaces)
 from ._zones import Zone
 
 __all__ = [
     "ABI_VERSION", "Cone", "ContactProblem", "Cylinder", "Enclosure", "Fallback", "Fields", "Law", "LcpProblem",
-    "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Penetration", "Plane", "Progress", "Proof",
+    "LcpResult", "Method", "Model", "ModelKind", "Normals", "Pairing", "Penetration", "Period", "Plane", "Progress", "Proof",
     "Remark", "Result", "Resultant", "RigidFaces", "Rims", "Search", "Sector", "SignoriniError", "Sphere", "State",
     "Status", "SurfacePairs", "Torus", "Triangle", "Uniqueness", "Zone", "certify", "lcp_lemke", "lcp_solve",
     "load", "pair_meshes", "pair_obstacle", "pair_surfaces", "prove", "read", "read_equations", "rigid_equations",

@@ -261,7 +261,7 @@ class Model(Remade):
         for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
             zone = f"zone {name!r}: " if name else ""
-            if not one.pairs:
+            if not one.pairs or "all slave faces look away" in one.summary:
                 warnings.warn(zone + one.summary, stacklevel=2)
             if one.is_sector and equations is None:
                 warnings.warn(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "

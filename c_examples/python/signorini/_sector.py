@@ -1,4 +1,4 @@
-"""A sector of a body that repeats about an axis: its boundaries, and the equations of their nodes."""
+"""A sector of a body that repeats about an axis or along a line: its boundaries, and the equations of their nodes."""
 
 from collections import namedtuple
 from itertools import product
@@ -20,9 +20,17 @@ boundary is the first one turned about it, right-handed; its displacements are t
 sector_equations gives them.
 """
 
+Period = namedtuple("Period", "way")
+Period.__doc__ = """A part of a body that repeats along a line without end, in the place of a Sector.
+
+way: from the first boundary of the part to the second, (D,). Displacements of both are the same, as sector_equations
+gives them.
+"""
+
 
 def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
     """Equations of the nodes on the second boundary of a Sector, u = turn @ u' of those on the first; and of nodes on its axis.
+    Of a Period u = u'.
 
     coordinates: of all nodes, (n, D).  bodies: a number for each node, (n,), that tells nodes of two bodies apart that
     stand at one place; None: no two do.  dofs: of each node, (n, D); None: D * node + axis. Leave dofs of the second
@@ -32,7 +40,6 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
     count, dim = coordinates.shape
     dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else nodal_dofs("dofs", dofs)
     sector = checked(sector)
-    axis = _axis(sector, dim)
     images, on_axis = _boundaries(coordinates, sector, bodies)
     first_of = {}
     for node, same in images:
@@ -42,23 +49,29 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
         if node not in first_of:  # of two sectors, each boundary is the image of the other
             first_of[same[0]] = node
     if not first_of:
-        raise ValueError(f"no node is the image of another, turned by one of {sector.count} sectors about the axis: "
-                         "nodes of the two boundaries must match")
-    # A turn leaves the part along the axis.
-    kept = abs(axis).argmax()
-    found = [(int(dofs[node, c]), [int(dofs[node, kept])] * (dim - 2), [axis[c] / axis[kept]] * (dim - 2))
-             for node in on_axis for c in range(dim) if dim == 2 or c != kept]
+        moved = "shifted by the way of the Period" if isinstance(sector, Period) else (
+            f"turned by one of {sector.count} sectors about the axis")
+        raise ValueError(f"no node is the image of another, {moved}: nodes of the two boundaries must match")
     second, first = list(first_of), list(first_of.values())
-    return turned_equations(dofs[second], dofs[first], _turn(sector, dim)) + found
+    found = turned_equations(dofs[second], dofs[first], _motion(sector, dim)[0])
+    if not on_axis:
+        return found
+    # A turn leaves the part along the axis.
+    axis = _axis(sector, dim)
+    kept = abs(axis).argmax()
+    return found + [(int(dofs[node, c]), [int(dofs[node, kept])] * (dim - 2), [axis[c] / axis[kept]] * (dim - 2))
+                    for node in on_axis for c in range(dim) if dim == 2 or c != kept]
 
 
 def checked(sector):
-    """The Sector of a caller, whose place and axis are not looked at; a tuple is one too."""
+    """The Sector or Period of a caller, whose place and axis are not looked at; a tuple is a Sector too."""
+    if isinstance(sector, Period):
+        return sector
     try:
         sector = Sector(*sector)
     except TypeError:
         raise TypeError(f"sector is {sector!r}: give a Sector, its count, a point of its axis and the direction of "
-                        "that") from None
+                        "that, or a Period") from None
     if not isinstance(sector.count, (int, np.integer)) or sector.count < 2:
         raise ValueError(f"count of a Sector is {sector.count!r}: give the number of sectors of the whole, an integer of at "
                          "least 2")
@@ -79,20 +92,29 @@ def _axis(sector, dim):
     return axis / np.linalg.norm(axis)
 
 
-def _turn(sector, dim):
-    """The turn by one sector, by the formula of Rodrigues."""
+def period_of(sector, dim):
+    """The way of a Period."""
+    return fit("way", sector.way, [(dim,)], f"a way, shape {(dim,)}")
+
+
+def _motion(sector, dim):
+    """The motion from the first boundary to the second, x -> turn @ (x - point) + shift + point: turn, point, shift."""
+    if isinstance(sector, Period):
+        return np.eye(dim), np.zeros(dim), period_of(sector, dim)
+    # The turn by the formula of Rodrigues.
     angle, (x, y, z) = 2 * np.pi / sector.count, _axis(sector, dim)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return (np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)[:dim, :dim]
+    turn = (np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)[:dim, :dim]
+    return turn, fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}"), np.zeros(dim)
 
 
 def _boundaries(coordinates, sector, bodies):
     """Nodes on the first boundary, each with those of its body at its image on the second, and nodes on the axis."""
     count, dim = coordinates.shape
-    point = fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}")
+    turn, point, shift = _motion(sector, dim)
     bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
     arms, near = coordinates - point, _NEAR * np.ptp(coordinates, axis=0).max()
-    images = arms @ _turn(sector, dim).T
+    images = arms @ turn.T + shift
     own, others = (np.floor(x / (2 * near)).astype(np.int64) for x in (arms, images))
     cells = {}
     for node, cell in enumerate(map(tuple, own.tolist())):
