@@ -195,6 +195,7 @@ pub struct SignoriniPenetration {
 /// obstacle: nothing holds what has no pair, such as faces beyond the search distance. Where pairs
 /// hold, a tenth of a face's size is left to them. What overlaps before the motion has not passed
 /// through by it, and is not counted: data.beyond has the faces that do, by more than was looked at.
+/// A clearance of the settings stands between the surfaces here too.
 ///
 /// @param contact      the pairs of one zone, as they were made
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover

@@ -208,7 +208,7 @@ impl<'h> Host<'h> {
         let surfaces = Surfaces { dim, coordinates, slave: faces, master };
         let (found, kept) = limits.monitored(|monitor| {
             let found = pair_surfaces(&surfaces, &settings, monitor)?;
-            Ok((found, KeptSurfaces::new(&surfaces)))
+            Ok((found, KeptSurfaces::new(&surfaces, settings.clearance)))
         })?;
         let zones = JoinedZones { summary: found.summary(), ..JoinedZones::default() };
         let pairs = SignoriniSurfacePairs::new(found, coordinates.len() / dim, numbering, zones);

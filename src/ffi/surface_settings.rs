@@ -250,12 +250,11 @@ impl SignoriniSurfaceSettings {
     /// The sector.
     fn sector(&self, at: At<'_>, dim: usize) -> Outcome<Option<Sector>> {
         let count = at.field("sectors").size(self.sectors)?;
-        let period = vector(&self.period[..dim]).into();
-        match (count, period == [0.0; 3]) {
-            (0, true) => return Ok(None),
-            (0, false) => return Ok(Some(Sector { period, ..Sector::default() })),
-            (_, true) => {}
-            (_, false) => return at.refuse_part("has sectors and a period: leave one of them out"),
+        match (count, self.period.iter().any(|part| *part != 0.0)) {
+            (0, false) => return Ok(None),
+            (0, true) => return Ok(Some(Sector { period: self.period, ..Sector::default() })),
+            (_, false) => {}
+            (_, true) => return at.refuse_part("has sectors and a period: leave one of them out"),
         }
         let point = vector(at.field("sector_point").required(self.sector_point, dim)?).into();
         let axis = match dim {

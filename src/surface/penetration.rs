@@ -39,6 +39,7 @@ pub struct KeptSurfaces {
     coordinates: Vec<f64>,
     slave: [Vec<usize>; 2],
     master: KeptMaster,
+    clearance: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -73,8 +74,12 @@ struct Held {
 }
 
 impl KeptSurfaces {
-    /// Keeps surfaces that have been paired.
-    pub fn new(&Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>) -> KeptSurfaces {
+    /// Keeps surfaces that have been paired with a clearance, which stands between them, as half the thicknesses of shells do if
+    /// it is negative.
+    pub fn new(
+        &Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>,
+        clearance: f64,
+    ) -> KeptSurfaces {
         let of_mesh = if let Master::Faces(faces) = master { faces.nodes } else { &[] };
         let mut nodes = [slave.nodes, of_mesh].concat();
         nodes.sort_unstable();
@@ -95,7 +100,7 @@ impl KeptSurfaces {
             }
             Master::RigidShape(shape) => KeptMaster::Shape(shape),
         };
-        KeptSurfaces { dim, slave: lists(slave), coordinates: kept, nodes, master }
+        KeptSurfaces { dim, slave: lists(slave), coordinates: kept, nodes, master, clearance }
     }
 
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
@@ -123,7 +128,7 @@ impl KeptSurfaces {
             KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
-                let depth = |x: Vector3| -shape.facing(x).0;
+                let depth = |x: Vector3| -shape.facing(x).0 - self.clearance;
                 self.deepest(held, &slaves, watch, |faces, at, least| {
                     let [before, now] = faces.map(|face| depth(face.position(at)));
                     (before <= least).then_some((now, None))
@@ -183,7 +188,8 @@ impl KeptSurfaces {
         let reach = Reach { overlap: span, open: 0.0, layer: span };
         let mut candidates = Candidates::new(opposite, reach, span);
         self.deepest(held, slaves, watch, |[first, face], at, least| {
-            let (x, origin, normal) = (face.position(at), first.position(at), first.normal(at));
+            let normal = first.normal(at);
+            let [x, origin] = [face, first].map(|face| face.position(at) - self.clearance * normal);
             let plane = Plane::new(self.dim, x, normal);
             let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
                 let flat = plane.flatten(&after.face(at));

@@ -54,7 +54,7 @@ impl Sector {
 
     /// `true` of a sector that is shifted, and has no axis.
     pub(super) fn is_shifted(&self) -> bool {
-        self.period != [0.0; 3]
+        self.period.iter().any(|part| *part != 0.0)
     }
 
     /// The direction of the axis.

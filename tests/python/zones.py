@@ -75,6 +75,30 @@ class Zones(unittest.TestCase):
             warnings.simplefilter("error")
             self.assertIsNone(model.solve(self.load, {"above": [], "below": gaps + 4.0}, 0.3).penetration)
 
+    def test_gaps_of_a_step_at_a_cut(self):
+        """A line over a plane in two zones, each node on a spring of 1 and pressed by 1. A zone without an obstacle takes none of
+        the other's; parts of a result have the clearances of the step's gaps, from those of their own zone."""
+        x = np.array([[0, 0], [1, 0], [2, 0.0]])
+        plane = signorini.Plane((0, 0), (0, 1))
+        zones = {name: signorini.pair_obstacle(x, [[node, node + 1]], plane) for name, node in (("left", 0), ("right", 1))}
+        K = np.ones(6), np.arange(6), np.arange(7)
+        load = np.tile([0, -1.0], 3)
+        model = signorini.Model.from_surfaces(K, zones)
+        # A node of the cut has the mean gap of those zones that have an obstacle.
+        for gap, fallen in (({"left": 0.25, "right": np.inf}, [0.25, 0.25, 1]), ({"left": 0.25, "right": 0.5}, [0.25, 0.375, 0.5]),
+                            ({"left": np.inf, "right": np.inf}, [1, 1, 1]), (0.5, [0.5, 0.5, 0.5])):
+            result = model.solve(load, gap, penetration=False)
+            self.assertEqual(result.status, Status.SOLVED)
+            np.testing.assert_allclose(-model.recover(result.d, load)[1::2], fallen, atol=1e-12)
+            for name, nodes in (("left", [0, 1]), ("right", [1, 2])):
+                own = gap[name] if isinstance(gap, dict) else gap
+                if np.isinf(own):
+                    continue
+                part = result.zone(name, gap)
+                # What presses is closed, as far as the zone can tell.
+                clearance = zones[name].fields(part, gap=np.full(2, own)).clearance[nodes]
+                np.testing.assert_allclose(clearance, 0, atol=1e-12)
+
     def test_numbers_of_each_zone(self):
         """A push that friction holds in one zone slides in the other."""
         self.load[[0, 2]] = 0.5  # the upper line alone

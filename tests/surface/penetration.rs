@@ -65,7 +65,7 @@ impl Beam {
         };
         let surfaces = Surfaces { dim: 2, coordinates: &x, slave, master };
         let found = pair_surfaces(&surfaces, settings, &mut unlimited()).unwrap();
-        Beam { mesh, first_of_block, found, kept: KeptSurfaces::new(&surfaces) }
+        Beam { mesh, first_of_block, found, kept: KeptSurfaces::new(&surfaces, 0.0) }
     }
 
     /// What is found after displacements of all degrees of freedom.
@@ -184,9 +184,43 @@ fn what_is_no_shape_is_refused() {
     let x = beam.mesh.nodes.concat();
     let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
     let master = Master::RigidShape(nowhere);
-    let kept = KeptSurfaces::new(&Surfaces { dim: 2, coordinates: &x, slave, master });
+    let kept = KeptSurfaces::new(&Surfaces { dim: 2, coordinates: &x, slave, master }, 0.0);
     let refused = kept.penetration(&beam.found, |_, _| 0.0, &mut unlimited()).unwrap_err();
     assert!(refused.to_string().contains("its outward direction is zero"), "{refused}");
     let refused = beam.kept.penetration(&beam.found, |_, _| f64::NAN, &mut unlimited());
     assert!(refused.unwrap_err().to_string().contains("not finite"));
+}
+
+/// Shells that are closer than half their thicknesses overlap, and a clearance lets middle surfaces pass by as much: over another
+/// shell and over a plane. No pair is within the search distance.
+#[test]
+fn a_clearance_stands_between_surfaces() {
+    let nodes = [[0.0, 0.5], [1.0, 0.5], [0.0, 0.0], [1.0, 0.0]];
+    let slave = Faces { start: &[0, 2], nodes: &[0, 1] };
+    let shell = Master::Faces(Faces { start: &[0, 2], nodes: &[3, 2] });
+    let plane = Obstacle::Plane { point: [0.0; 3], outward: [0.0, 1.0, 0.0] };
+    for (master, name) in [(shell, "shell"), (Master::RigidShape(plane), "plane")] {
+        for (clearance, fall, depth) in [
+            (-0.3, 0.1, 0.0),
+            (-0.3, 0.4, 0.2),
+            (0.0, 0.4, 0.0),
+            (0.0, 0.7, 0.2),
+            (0.3, 0.7, 0.0),
+            (0.3, 1.0, 0.2),
+        ] {
+            let coordinates = &nodes.concat();
+            let surfaces = Surfaces { dim: 2, coordinates, slave, master };
+            let search_distance = Some(0.1);
+            let settings = SurfaceSettings { search_distance, clearance, ..Default::default() };
+            let found = pair_surfaces(&surfaces, &settings, &mut unlimited()).unwrap();
+            assert!(found.pairs.is_empty());
+            let kept = KeptSurfaces::new(&surfaces, clearance);
+            let u = |node, axis| if node < 2 && axis == 1 { -fall } else { 0.0 };
+            let passed = kept.penetration(&found, u, &mut unlimited()).unwrap();
+            let context = format!("{name}, {clearance}, {fall}: {passed:?}");
+            // Rounding of numbers of size one.
+            assert!((passed.depth - depth).abs() < 1e-15, "{context}");
+            assert_eq!(passed.count, if depth > 0.0 { 3 } else { 0 }, "{context}");
+        }
+    }
 }

@@ -55,12 +55,13 @@ class Result(_Fields):
         """For pickle and copy: all but contact, which belongs to this process."""
         return tuple(self._replace(contact=None))
 
-    def zone(self, name):
+    def zone(self, name, gap=None):
         """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs.
 
-        The force of a pair that zones share, where they cut a smooth surface, is shared by their areas.
+        The force of a pair that zones share, where they cut a smooth surface, is shared by their areas, and its d counts
+        from the gap of the zone. gap: that of the case, as solve has it; None: that of the contacts.
         """
-        return self._zones().of(self, name)
+        return self._zones().of(self, name, gap)
 
     def table(self):
         """Pairs by state, pressed area and force of each zone: a list of (zone, pairs, open, slip, stick,

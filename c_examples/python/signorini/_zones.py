@@ -137,7 +137,7 @@ class Zones(Remade):
     def joined(self, what, values, count=1):
         """Numbers for each pair, count of them, from those of each zone by name; other values as they are.
 
-        A pair of several zones has the numbers of the first, but the mean of their gaps, by area.
+        A pair of several zones has the numbers of the first, but the mean of their gaps, by area, without infinite ones.
         """
         if not isinstance(values, dict):
             return values
@@ -146,10 +146,16 @@ class Zones(Remade):
                  for name, contact in self.contacts.items()]
         own = np.concatenate(parts)
         found = own[self._first]
-        if what == "gap":
-            found[:] = 0.0
-            np.add.at(found, self._of_own, np.concatenate(list(self._shares.values())) * own)
-        return found
+        return self._mean(own) if what == "gap" else found
+
+    def _mean(self, gaps):
+        """The mean gap of each pair, by area: of the zones that have an obstacle there, which one with an infinite gap lacks."""
+        shares = np.where(np.isinf(gaps) & (gaps > 0), 0.0, np.concatenate(list(self._shares.values())))
+        sums, areas = np.zeros((2, self.pairs))
+        np.add.at(sums, self._of_own, shares * np.where(shares > 0, gaps, 0.0))
+        np.add.at(areas, self._of_own, shares)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(areas > 0, sums / areas, np.inf)
 
     @staticmethod
     def _part(name, values, pairs, count, scalar):
@@ -171,8 +177,8 @@ class Zones(Remade):
             if name not in values:
                 raise KeyError(f"{what} lacks the zone {name!r}: give numbers for each of {known}")
 
-    def of(self, result, name):
-        """The part of a result that belongs to a zone.
+    def of(self, result, name, gap=None):
+        """The part of a result that belongs to a zone. gap: that of the step, for all pairs or a dict; None: that of the contacts.
 
         The force of a pair of several zones is shared by areas, so that each has the pressure, and its motion is that from
         the gap of the zone, so that each has the clearance. It keeps its normal; tangents are those of the zone's own pair.
@@ -192,10 +198,23 @@ class Zones(Remade):
                 if parts[field] is not None:
                     parts[field][shared, 1:] = np.einsum("pij,pj->pi", turn, parts[field][shared, 1:])
             with np.errstate(invalid="ignore"):
-                lifted = contact.gaps[shared] - self.gaps()[place[shared]]
+                lifted = self._own_gaps(name, gap)[shared] - self._all_gaps(gap)[place[shared]]
             parts["d"][shared, 0] += np.where(np.isfinite(lifted), lifted, 0.0)  # infinite ones never touch
         second = None if result.second is None else self.of(result.second, name)
         return result._replace(contact=contact, second=second, frames=frames, **parts)
+
+    def _all_gaps(self, gap):
+        """The gaps of all pairs in a step."""
+        return self.gaps() if gap is None else np.broadcast_to(self.joined("gap", gap), (self.pairs,))
+
+    def _own_gaps(self, name, gap):
+        """The gaps of the pairs of a zone in a step."""
+        contact = self.contacts[name]
+        if gap is None:
+            return contact.gaps
+        if isinstance(gap, dict):
+            return self._part(f"gap[{name!r}]", gap[name], contact.pairs, 1, True)
+        return self._all_gaps(gap)[self.places[name]]
 
     @staticmethod
     def _leaning(contact, shared, joined):
@@ -212,7 +231,7 @@ class Zones(Remade):
 
         slip0, gap: those of the step, in arrays for all pairs or dicts by the names of zones.
         """
-        gap = self.gaps() if gap is None else self.joined("gap", gap)
+        gap = self._all_gaps(gap)
         first = next(iter(self.contacts.values()))
         self._write(path, cells, first, result, u, self.joined("slip0", slip0, self.dim - 1), gap)
 
