@@ -47,6 +47,10 @@ program surfaces_test
 
     ! The same pairs as a zone with a name and a law: a tie moves as one, 1 on springs of 2 and 2 where the lower line has
     ! a node below, and half as stiff a share elsewhere; what it carries is what acts on the upper line less its springs.
+    call joined%join([surfaces], ['the bolt'], info, [int(SIGNORINI_LAW_COULOMB)], message=message)
+    call expect('law without numbers', info == -5 .and. index(message, 'numbers has 0 rows: the law 1 of zone 1') > 0)
+    call joined%join([surfaces], ['the bolt'], info, [int(SIGNORINI_LAW_COHESIVE)], reshape([0.3_dp], [1, 1]), message)
+    call expect('law with few numbers', info == -5 .and. index(message, 'has 3 parameters') > 0)
     call joined%join([surfaces], ['the bolt'], info, [int(SIGNORINI_LAW_TIED)], message=message)
     call expect('join', info == 0 .and. message == '' .and. joined%pairs == 2 .and. all(joined%zone_start == [0, 2]))
     call expect('friction', all(abs(joined%friction - [7, 0, 0, 0, 7, 0, 0, 0]) < 1d-15))
