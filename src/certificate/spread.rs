@@ -60,7 +60,7 @@ pub(crate) fn is_unresisted(bodies: &dyn StiffnessOperator, r: &[f64]) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{ContactProblem, FrictionLaw, GoesOn, HeldSet};
+    use crate::problem::{ContactProblem, FrictionLaw, GoesOn, HeldSet, Solved};
 
     /// Two springs in a row from a support to a pair, the first of the stiffness `support`, and one along its tangent.
     struct Springs {
@@ -99,11 +99,7 @@ mod tests {
             false
         }
 
-        fn hold(&mut self, _: &HeldSet, _: GoesOn<'_>) -> Result<bool, Error> {
-            Ok(false)
-        }
-
-        fn solve(&mut self, forces: &[f64], _: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
+        fn solve(&mut self, _: Option<&HeldSet>, forces: &[f64], _: GoesOn<'_>) -> Solved {
             Ok(Some(forces.to_vec()))
         }
     }

@@ -26,6 +26,7 @@
 use super::eigen::eigenvectors;
 use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
+use super::sparse_schur::Failure;
 use super::tolerances::{CONDENSATION, FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
 use super::vector::{combination, dot, norm};
 use super::watched::GoesOn;
@@ -41,15 +42,6 @@ pub trait Whole {
 
     /// The rounding of the energy of a motion of all components.
     fn noise(&self, motion: &[f64]) -> f64;
-}
-
-/// Why a matrix is no stiffness, or none that doubles can tell; with the motion that shows it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StiffnessDefect {
-    /// The energy of the motion is negative.
-    Indefinite(Vec<f64>),
-    /// The energy of the motion cannot be told from rounding.
-    Unclear(Vec<f64>),
 }
 
 /// Steps in which a candidate loses the forces on the components that resist: each gains what the
@@ -107,7 +99,7 @@ pub fn settle(
     (units, least, doubt): (&[f64], f64, Doubt),
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
-) -> Result<bool, StiffnessDefect> {
+) -> Result<bool, Failure> {
     let (size, least) = (units.len(), least.max(SUSPICIOUS_PIVOT));
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
     let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
@@ -134,7 +126,7 @@ fn settle_scaled(
     root: &[f64],
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
-) -> Result<bool, StiffnessDefect> {
+) -> Result<bool, Failure> {
     let size = root.len();
     let motions = candidates(matrix, factor, root, whole, goes_on)
         .and_then(|candidates| parted(candidates, root, whole, goes_on));
@@ -150,9 +142,9 @@ fn settle_scaled(
             products.push(forces.iter().zip(root).map(|(force, root)| force / root).collect());
             basis.push(motion.scaled);
         } else if energy <= -HELD * noise {
-            return Err(StiffnessDefect::Indefinite(motion.whole));
+            return Err(Failure::Negative(motion.whole));
         } else {
-            return Err(StiffnessDefect::Unclear(motion.whole));
+            return Err(Failure::Unclear(motion.whole));
         }
     }
     let some_free = !free.is_empty();

@@ -19,8 +19,7 @@ impl Model {
         prescribed: Option<&[f64]>,
         d: &[f64],
     ) -> Result<Vec<f64>, Error> {
-        self.check_solved(&SolvedCase { load, prescribed, d })?;
-        not_overflown(Argument::Start, "u", self.reduction.recover(load, prescribed, d)?)
+        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
     }
 
     /// Displacements of the host of several load cases, each as by [`Self::recover`], in blocks of 32.

@@ -1,6 +1,6 @@
 //! Solutions with the products and the preconditioner of bodies that have no factor.
 
-use super::{GoesOn, StiffnessOperator};
+use super::{GoesOn, HeldSet, StiffnessOperator};
 use crate::error::Error;
 use crate::linalg::gmres::gmres;
 use crate::linalg::vector::norm;
@@ -10,19 +10,19 @@ const MOST: usize = 200;
 
 /// The solution `x` of `A x = forces` with components held, no springs among the others, that leaves `left` of the
 /// forces, each in its unit; with the number of preconditionings that it has taken. The components are those of the last
-/// [`StiffnessOperator::hold`], and `held` tells them. `None` where `goes_on` says no.
+/// [`StiffnessOperator::hold`]. `None` where `goes_on` says no.
 ///
 /// # Errors
 /// A failure in the host.
 pub fn iterated(
     bodies: &mut dyn StiffnessOperator,
-    held: &[bool],
+    held_set: &HeldSet,
     (forces, left): (&[f64], f64),
     goes_on: GoesOn<'_>,
 ) -> Result<Option<(Vec<f64>, u64)>, Error> {
     let root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
     let inner = bodies.inner();
-    let free = |i: usize| i < inner || !held[i - inner];
+    let free = |i: usize| i < inner || !held_set.held[i - inner];
     let scaled = |forces: &[f64]| -> Vec<f64> {
         let parts = forces.iter().zip(&root).enumerate();
         parts.map(|(i, (force, root))| if free(i) { force / root } else { 0.0 }).collect()
@@ -32,7 +32,7 @@ pub fn iterated(
     // It ends early by an error of the host, or by none where `goes_on` says no.
     let found = gmres(&right, left * norm(&right), MOST, |v| -> Result<Vec<f64>, Option<Error>> {
         let forces: Vec<f64> = v.iter().zip(&root).map(|(v, root)| v * root).collect();
-        let Some(z) = bodies.solve(&forces, goes_on)? else { return Err(None) };
+        let Some(z) = bodies.solve(Some(held_set), &forces, goes_on)? else { return Err(None) };
         let image = scaled(&bodies.product(&z)?);
         directions.push(z);
         Ok(image)

@@ -42,5 +42,5 @@ pub(crate) use relation::Redundant;
 pub use relation::{Relation, Stiffness};
 pub(crate) use remembered::Remembered;
 pub use sparse_flexibility::SparseW;
-pub(crate) use stiffness_operator::{GoesOn, HeldSet, MatrixFree, StiffnessOperator};
+pub(crate) use stiffness_operator::{GoesOn, HeldSet, MatrixFree, Solved, StiffnessOperator};
 pub(crate) use units::{ChangesUnits, Units, in_units};

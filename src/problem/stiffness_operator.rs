@@ -40,6 +40,9 @@ impl HeldSet {
     }
 }
 
+/// The result of [`StiffnessOperator::solve`].
+pub type Solved = Result<Option<Vec<f64>>, Error>;
+
 /// Sums of `|A| size` beside the units, where no entry is known.
 const NEIGHBOURS: f64 = 8.0;
 
@@ -101,22 +104,24 @@ pub trait StiffnessOperator {
         None
     }
 
-    /// From now on [`Self::solve`] solves with these components held. `goes_on` is asked now and then while that
+    /// Makes what [`Self::solve`] needs to solve with these components held. `goes_on` is asked now and then while that
     /// lasts; `false`: it has ended it, or rounding leaves no factor, and nothing can be solved before another call.
     ///
     /// # Errors
     /// No memory, or what has failed in the host.
-    fn hold(&mut self, restriction: &HeldSet, goes_on: GoesOn<'_>) -> Result<bool, Error>;
+    fn hold(&mut self, _held: &HeldSet, _goes_on: GoesOn<'_>) -> Result<bool, Error> {
+        Ok(true)
+    }
 
     /// All unknowns `x` of a load case that ends: they may be asked for next.
     fn remember(&mut self, _load: &[f64], _x: &[f64]) {}
 
-    /// An approximate solution `x` of `A x = forces`: with the held components zero, where forces on them do not
-    /// count; without [`Self::hold`] with nothing held. `None` where `goes_on`, which is asked now and then, says no.
+    /// An approximate solution `x` of `A x = forces`: with the components of the last [`Self::hold`], which `held` tells
+    /// again, at zero, where forces on them do not count; without one with nothing held. `None` where `goes_on`, which is asked now and then, says no.
     ///
     /// # Errors
     /// As [`Self::product`].
-    fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error>;
+    fn solve(&mut self, held: Option<&HeldSet>, forces: &[f64], goes_on: GoesOn<'_>) -> Solved;
 }
 
 /// The relation of such bodies, as far as it is known without their inner unknowns: the size of forces. What

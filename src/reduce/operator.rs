@@ -7,7 +7,7 @@ use super::probes::{called, check_units, checked_images, measured_units, probe, 
 use crate::error::{Error, entry, number};
 use crate::linalg::tolerances::AGREES;
 use crate::linalg::vector::dot;
-use crate::problem::{GoesOn, HeldSet, StiffnessOperator};
+use crate::problem::{GoesOn, HeldSet, Solved, StiffnessOperator};
 
 /// The functions of a host. Vectors are relative displacements and forces of the pairs. A function that returns
 /// `Err` has failed; the message names its number.
@@ -145,7 +145,7 @@ impl Reduction for OperatorReduction {
     }
 
     fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
-        Some(Box::new(InUse { operator: self, held: Vec::new() }))
+        Some(Box::new(self))
     }
 
     fn host_size(&self) -> usize {
@@ -153,23 +153,17 @@ impl Reduction for OperatorReduction {
     }
 }
 
-/// A user of the operator.
-struct InUse<'a> {
-    operator: &'a OperatorReduction,
-    held: Vec<bool>,
-}
-
-impl StiffnessOperator for InUse<'_> {
+impl StiffnessOperator for &OperatorReduction {
     fn inner(&self) -> usize {
         0
     }
 
     fn units(&self) -> &[f64] {
-        &self.operator.units
+        &self.units
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
-        self.operator.product(x)
+        OperatorReduction::product(self, x)
     }
 
     fn is_sparse(&self) -> bool {
@@ -177,18 +171,13 @@ impl StiffnessOperator for InUse<'_> {
     }
 
     fn can_hold(&self) -> bool {
-        self.operator.operator.has_held()
+        self.operator.has_held()
     }
 
-    fn hold(&mut self, held_set: &HeldSet, _: GoesOn<'_>) -> Result<bool, Error> {
-        self.held.clone_from(&held_set.held);
-        Ok(true)
-    }
-
-    fn solve(&mut self, forces: &[f64], _: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
-        let solution = match self.can_hold() {
-            true => self.operator.by_held(&self.held, forces),
-            false => self.operator.by_inverse(forces),
+    fn solve(&mut self, held: Option<&HeldSet>, forces: &[f64], _: GoesOn<'_>) -> Solved {
+        let solution = match held {
+            Some(held_set) => self.by_held(&held_set.held, forces),
+            None => self.by_inverse(forces),
         };
         solution.map(Some)
     }

@@ -7,7 +7,7 @@ use super::{HostLoad, Reduction, SolvedCase};
 use crate::error::{Error, entry, index};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
-use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
+use crate::problem::{GoesOn, HeldSet, Solved, StiffnessOperator, iterated};
 
 /// What the host's preconditioner stands for: `A` with components of `d` held, and with springs.
 #[derive(Clone, Copy, Debug)]
@@ -131,12 +131,7 @@ impl PreconditionedReduction {
     }
 
     /// All unknowns where those of the pairs are `d`.
-    fn with_pairs_at(
-        &self,
-        load: &[f64],
-        d: &[f64],
-        goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<f64>>, Error> {
+    fn with_pairs_at(&self, load: &[f64], d: &[f64], goes_on: GoesOn<'_>) -> Solved {
         let load = self.of_host(load);
         let inner = self.inner();
         if let Some(x) = self.last.of(&load, |x| &x[inner..] == d) {
@@ -144,10 +139,10 @@ impl PreconditionedReduction {
         }
         let mut x = vec![0.0; load.len()];
         x[inner..].copy_from_slice(d);
-        let mut user = InUse { operator: self, held_set: HeldSet::all(self.dim, self.pairs) };
-        let lack = user.residual(&x, &[], &load)?;
-        let held = vec![true; d.len()];
-        let Some((step, _)) = iterated(&mut user, &held, (&lack, RECOVERED), goes_on)? else {
+        let (mut bodies, held_set) = (self, HeldSet::all(self.dim, self.pairs));
+        let lack = bodies.residual(&x, &[], &load)?;
+        let found = iterated(&mut bodies, &held_set, (&lack, RECOVERED), goes_on)?;
+        let Some((step, _)) = found else {
             return Ok(None);
         };
         x.iter_mut().zip(step).take(inner).for_each(|(x, step)| *x -= step);
@@ -175,7 +170,7 @@ impl Reduction for PreconditionedReduction {
     }
 
     fn bodies(&self) -> Option<Box<dyn StiffnessOperator + '_>> {
-        Some(Box::new(InUse { operator: self, held_set: HeldSet::none(self.dim, self.pairs) }))
+        Some(Box::new(self))
     }
 
     fn all_loads(&self, load: &[f64], _prescribed: Option<&[f64]>) -> Vec<f64> {
@@ -219,23 +214,17 @@ impl Reduction for PreconditionedReduction {
     }
 }
 
-/// A user of the operator.
-struct InUse<'a> {
-    operator: &'a PreconditionedReduction,
-    held_set: HeldSet,
-}
-
-impl StiffnessOperator for InUse<'_> {
+impl StiffnessOperator for &PreconditionedReduction {
     fn inner(&self) -> usize {
-        self.operator.inner()
+        PreconditionedReduction::inner(self)
     }
 
     fn units(&self) -> &[f64] {
-        &self.operator.units
+        &self.units
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
-        self.operator.product(x)
+        PreconditionedReduction::product(self, x)
     }
 
     fn is_sparse(&self) -> bool {
@@ -250,16 +239,11 @@ impl StiffnessOperator for InUse<'_> {
         true
     }
 
-    fn hold(&mut self, held_set: &HeldSet, _: GoesOn<'_>) -> Result<bool, Error> {
-        self.held_set.clone_from(held_set);
-        Ok(true)
-    }
-
     fn remember(&mut self, load: &[f64], x: &[f64]) {
-        self.operator.last.keep(load, x);
+        self.last.keep(load, x);
     }
 
-    fn solve(&mut self, forces: &[f64], _: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
-        self.operator.precondition(&self.held_set, forces).map(Some)
+    fn solve(&mut self, held: Option<&HeldSet>, forces: &[f64], _: GoesOn<'_>) -> Solved {
+        self.precondition(held.expect("something is held before"), forces).map(Some)
     }
 }

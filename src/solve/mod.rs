@@ -68,7 +68,7 @@ pub(crate) fn solve_dependent(
     });
     let solution =
         solution.unwrap_or_else(|| proximal::solve_dependent(problem, by, start, monitor))?;
-    Ok(finished(solution, problem, monitor))
+    Ok(finished(solution, settings, problem, monitor))
 }
 
 /// Solves a contact problem in flexibility form from the contact forces `start` (zero if `None`).
@@ -117,7 +117,7 @@ pub fn solve_flexibility(
     });
     let solution =
         solution.unwrap_or_else(|| proximal::solve_flexibility(problem, by, start, monitor))?;
-    Ok(finished(solution, problem, monitor))
+    Ok(finished(solution, settings, problem, monitor))
 }
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
@@ -208,9 +208,13 @@ fn to_host<R: Relation>(
 /// A result with the remarks on its data and the count of its iterations.
 fn finished<R: Relation>(
     mut solution: Solution,
+    settings: &Settings,
     problem: &ContactProblem<'_, R>,
     monitor: &Monitor<'_>,
 ) -> Solution {
+    if settings.proof {
+        solution.existence = Existence::NotProved;
+    }
     plan::remark_on_data(problem, &mut solution);
     solution.iterations = monitor.iterations();
     solution

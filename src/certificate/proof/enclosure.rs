@@ -160,14 +160,9 @@ impl<'s> Neighbourhood<'s> {
             change[dim * unknown.pair] = product_up(FEW_OPERATIONS, unknown.column);
         }
         let changed = bound_of_product(system.contact.problem(), &change);
-        let mut turned = vec![0.0; system.unknowns.len()];
-        for (turned, unknown) in turned.iter_mut().zip(&system.unknowns) {
-            *turned = self.turned(unknown);
-        }
-        let rows = system.unknowns.iter().zip(turned);
-        rows.map(|(row, turned)| {
+        let doubt = |row: &Unknown| {
             let (at, c) = (dim * row.pair, row.component);
-            let mut doubt = sum_up(changed[at + c], turned);
+            let mut doubt = sum_up(changed[at + c], self.turned(row));
             // A pair that is dragged is closed: its normal component is no unknown.
             if system.pairs[row.pair].is_dragged() {
                 let drag = system.pairs[row.pair].drag(&self.locals[row.pair])[c - 1];
@@ -177,8 +172,8 @@ impl<'s> Neighbourhood<'s> {
                 doubt = sum_up(doubt, product_up(difference(drag, used), self.moved[at]));
             }
             sum_up(product_up(row.row, doubt), f64::MIN_POSITIVE)
-        })
-        .collect()
+        };
+        system.unknowns.iter().map(doubt).collect()
     }
 
     /// The bound for the part of a row by which the friction of its pair turns.

@@ -1,6 +1,5 @@
 //! The progress of a factorisation, the end that its caller may put to it, and how else it fails.
 
-use crate::linalg::free_motions::StiffnessDefect;
 use crate::linalg::sparse_matrix::OutOfMemory;
 
 /// Is told between two steps of a factorisation which share of its work is done, 0 before anything is known of it, and may
@@ -22,15 +21,6 @@ pub enum Failure {
     OutOfMemory,
     /// The caller has ended it.
     Stopped,
-}
-
-impl From<StiffnessDefect> for Failure {
-    fn from(defect: StiffnessDefect) -> Self {
-        match defect {
-            StiffnessDefect::Indefinite(motion) => Failure::Negative(motion),
-            StiffnessDefect::Unclear(motion) => Failure::Unclear(motion),
-        }
-    }
 }
 
 impl From<OutOfMemory> for Failure {

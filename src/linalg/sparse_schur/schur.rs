@@ -6,7 +6,7 @@ use super::numeric::Numeric;
 use super::plan::Plan;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::free_motions::{self, Doubt, StiffnessDefect, Whole, suspicious_pivot};
+use crate::linalg::free_motions::{Doubt, Whole, settle, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, largest_of, sizes};
@@ -54,24 +54,13 @@ impl SparseSchur {
             false => Doubt::of(least, &units, |i| found.schur[i + m * i]),
         };
         if let Some(doubt) = doubt {
-            found.settle(lower, (&units, least, doubt), &mut || progress(1.0).is_ok())?;
+            let (mut schur, units) = (std::mem::take(&mut found.schur), (&units[..], least, doubt));
+            let whole = Unreduced { lower, factor: &found };
+            settle(&mut schur, units, &whole, &mut || progress(1.0).is_ok())?;
+            found.schur = schur;
             progress(1.0)?;
         }
         Ok(found)
-    }
-
-    /// Makes `S` exact on the motions that nothing resists; `lower` is the whole matrix, and `units` are the
-    /// diagonal of `C`, and pivots that are suspicious beside it.
-    fn settle(
-        &mut self,
-        lower: Csc,
-        units: (&[f64], f64, Doubt),
-        goes_on: GoesOn<'_>,
-    ) -> Result<(), StiffnessDefect> {
-        let mut schur = std::mem::take(&mut self.schur);
-        free_motions::settle(&mut schur, units, &Unreduced { lower, factor: self }, goes_on)?;
-        self.schur = schur;
-        Ok(())
     }
 
     /// `S`, column-major.

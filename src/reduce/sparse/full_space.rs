@@ -14,7 +14,7 @@ use crate::linalg::sparse_matrix::{
     Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
 use crate::linalg::sparse_schur::{Failure, Plan, Values};
-use crate::problem::{GoesOn, HeldSet, SOLUTIONS, StiffnessOperator};
+use crate::problem::{GoesOn, HeldSet, SOLUTIONS, Solved, StiffnessOperator};
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -112,16 +112,12 @@ impl FullSpace {
 
     /// `c - B A⁻¹ a` for each of the loads `(a, c)`, one behind the other: minus the forces on the components of
     /// `d`, all held; `None` where `goes_on` says no.
-    pub(super) fn condense(
-        &self,
-        loads: &[f64],
-        goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<f64>>, Error> {
+    pub(super) fn condense(&self, loads: &[f64], goes_on: GoesOn<'_>) -> Solved {
         let mut user = self.in_use();
         if !user.hold_all(goes_on)? {
             return Ok(None);
         }
-        let Some(x) = user.solve(loads, goes_on)? else { return Ok(None) };
+        let Some(x) = user.solve(None, loads, goes_on)? else { return Ok(None) };
         let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
         for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
             let residual = symmetric_residual(&self.matrix, (x, &[]), load);
@@ -154,7 +150,7 @@ impl FullSpace {
             for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
                 residuals.extend(symmetric_residual(&self.matrix, (x, &[]), load));
             }
-            let steps = user.solve(&residuals, &mut || true)?.unwrap_or_default();
+            let steps = user.solve(None, &residuals, &mut || true)?.unwrap_or_default();
             for (x, step) in x.chunks_exact_mut(size).zip(steps.chunks_exact(size)) {
                 x.iter_mut().zip(step).take(self.inner).for_each(|(x, step)| *x -= step);
             }
@@ -261,7 +257,8 @@ impl StiffnessOperator for InUse<'_> {
         Ok(false)
     }
 
-    fn solve(&mut self, forces: &[f64], goes_on: GoesOn<'_>) -> Result<Option<Vec<f64>>, Error> {
+    /// Its own factor tells what is held.
+    fn solve(&mut self, _: Option<&HeldSet>, forces: &[f64], goes_on: GoesOn<'_>) -> Solved {
         let Factor { held_set: Some(held_set), values } = &self.factor else {
             unreachable!("something is held before")
         };

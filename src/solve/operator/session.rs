@@ -92,7 +92,8 @@ impl<'b> Session<'b> {
             return Err(Ending::Stalled("the forces are beyond the largest number"));
         }
         self.solutions += 1;
-        let solution = asked(monitor, |goes_on| self.operator.solve(forces, goes_on))?;
+        let (operator, held) = (&mut *self.operator, self.held.as_deref());
+        let solution = asked(monitor, |goes_on| operator.solve(held, forces, goes_on))?;
         Ok(solution.unwrap_or_default())
     }
 
@@ -107,7 +108,7 @@ impl<'b> Session<'b> {
             return self.solve(forces, monitor);
         };
         let solution = asked(monitor, |goes_on| {
-            iterated(&mut *self.operator, &held_set.held, (forces, left), goes_on)
+            iterated(&mut *self.operator, &held_set, (forces, left), goes_on)
         })?;
         let (solution, count) = solution.unwrap_or_default();
         self.solutions += count;

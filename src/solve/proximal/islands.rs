@@ -18,7 +18,7 @@ use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Flexibility, FlexibilityForm, FlexibilityProblem, SparseW};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::part::PairData;
-use crate::solve::result::{Ending, Existence, Solution, Solve, Status};
+use crate::solve::result::{Ending, Solution, Solve, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
@@ -205,10 +205,8 @@ impl Found {
         let d = problem.relation().relative(&self.force);
         let certificate = measure(contact, (&d, &[]), &self.force);
         let ending = self.ending(settings, &certificate);
-        let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
         let method = if self.quick > 0 { Method::Newton } else { settings.method };
         let mut whole = Solution {
-            existence,
             factorisations: self.factorisations,
             outer_iterations: self.outer_iterations,
             refactorisations: self.refactorisations,

@@ -7,7 +7,7 @@ use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
-use crate::solve::result::{Call, Ending, Existence, Solution, Solve, Status, Uniqueness};
+use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -41,9 +41,7 @@ pub fn ended<R: Relation>(
 ) -> Solution {
     let certificate = measure(contact, (&d, &[]), force);
     let ended = ending.status(settings, &certificate);
-    let existence = if settings.proof { Existence::NotProved } else { Existence::NotAsked };
-    let solution = Solution::of(method, ended, d, certificate);
-    Solution { existence, factorisations: systems, ..solution }
+    Solution { factorisations: systems, ..Solution::of(method, ended, d, certificate) }
 }
 
 /// The result of a round as one of the problem itself, of displacements `d` and forces.
@@ -67,7 +65,6 @@ pub fn measured<R: Relation>(
         d_low: vec![0.0; d.len()],
         d,
         errors: None,
-        existence: if settings.proof { Existence::NotProved } else { Existence::NotAsked },
         certificate,
         fallback: None,
         uniqueness: Uniqueness::NotKnown,

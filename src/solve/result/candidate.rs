@@ -11,9 +11,9 @@ use crate::law::Contact;
 /// A candidate of a solver. Its displacements change only together with its certificate, which is measured once.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    d: Vec<f64>,
+    pub(super) d: Vec<f64>,
     /// Empty where nothing is known of what rounding has left out of `d`.
-    low: Vec<f64>,
+    pub(super) low: Vec<f64>,
     force: Vec<f64>,
     certificate: OnceCell<Certificate>,
     /// Why the solver stopped.
@@ -96,11 +96,6 @@ impl Candidate {
     pub fn take_certificate(&mut self, contact: &Contact<'_>) -> Certificate {
         self.certificate(contact);
         self.certificate.take().expect("it is measured")
-    }
-
-    /// The displacements, and their low part, empty where nothing is known of it.
-    pub fn into_displacements(self) -> (Vec<f64>, Vec<f64>) {
-        (self.d, self.low)
     }
 
     /// True if nothing is left to try: solved, proved to have no solution, or stopped.

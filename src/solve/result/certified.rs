@@ -29,9 +29,7 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: Candidate) -> Solut
         recession = Some(motion);
         (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned());
     }
-    let Candidate { effort, errors, orientation, .. } = candidate;
-    let definite = std::mem::take(&mut candidate.definite);
-    let (d, low) = candidate.into_displacements();
+    let Candidate { d, low, effort, errors, orientation, definite, .. } = candidate;
     let mut solution = Solution {
         recession,
         errors: errors.filter(|_| status == Status::Solved),

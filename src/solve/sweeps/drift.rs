@@ -4,7 +4,6 @@
 //! matrix is singular on the others, its factor tells which of them depend on the rest: the null vector
 //! that agrees with the drift on these has none of the drift's elastic part.
 
-use super::Iterate;
 use crate::certificate::{is_escape_of, lifts};
 use crate::law::{Contact, lift};
 use crate::linalg::vector::norm_inf;
@@ -29,21 +28,16 @@ impl DriftDetector {
         DriftDetector { sweeps: 0, next: FIRST_LOOK, before: x.to_vec() }
     }
 
-    /// Counts a sweep; returns a recession direction once one is found.
-    pub fn observe(
-        &mut self,
-        iterate: &impl Iterate,
-        monitor: &mut Monitor<'_>,
-    ) -> Option<Vec<f64>> {
+    /// Counts a sweep that has led to `x`; returns the drift since the last look if it is time for one.
+    pub fn observe(&mut self, x: &[f64]) -> Option<Vec<f64>> {
         self.sweeps += 1;
         if self.sweeps < self.next {
             return None;
         }
         self.next *= 2;
-        let x = iterate.unknowns();
-        let drift: Vec<f64> = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
+        let drift = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
         self.before.copy_from_slice(x);
-        iterate.recession(&drift, monitor)
+        Some(drift)
     }
 }
 

@@ -1,17 +1,20 @@
-//! Sweeps until a target is met: over-relaxation, drift and budgets around an [`Iterate`].
+//! Sweeps until a target is met: over-relaxation, drift and budgets around what is [`Swept`].
 
-use super::Iterate;
+use super::Swept;
 use super::drift::DriftDetector;
 use super::relaxation::Relaxation;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
+use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::solve::result::Ending;
 
 /// The driver of projected SOR.
-pub struct Driver<'m, 'c, I> {
-    /// The iterate.
-    pub iterate: I,
+pub struct Driver<'m, 'c, P> {
+    pub problem: P,
+    /// The iterate, and its residual, which is carried along.
+    pub x: Vec<f64>,
+    pub w: Vec<f64>,
     /// Chooses the factor of the next sweep.
     pub relaxation: Relaxation,
     drift: DriftDetector,
@@ -38,20 +41,21 @@ const STAGNATION: u64 = 5000;
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
 
-impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
-    /// Starts from `iterate`; a factor that the settings do not give is chosen below
+impl<'m, 'c, P: Swept> Driver<'m, 'c, P> {
+    /// Starts from `x`, which is admissible; a factor that the settings do not give is chosen below
     /// `largest_factor`.
     pub fn new(
-        iterate: I,
+        (problem, x): (P, Vec<f64>),
         settings: &Settings,
         largest_factor: f64,
         monitor: &'m mut Monitor<'c>,
     ) -> Self {
-        let unknowns = iterate.unknowns().len();
         Driver {
-            drift: DriftDetector::new(iterate.unknowns()),
-            iterate,
-            relaxation: Relaxation::new(settings.omega, largest_factor, unknowns),
+            drift: DriftDetector::new(&x),
+            relaxation: Relaxation::new(settings.omega, largest_factor, x.len()),
+            w: problem.residual(&x),
+            problem,
+            x,
             monitor,
             milestone: (f64::INFINITY, 0),
             largest_force: 0.0,
@@ -69,7 +73,7 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
                 if stood_still {
                     return Err(Ending::Stalled("the sweeps no longer change the displacements"));
                 }
-                self.iterate.refresh();
+                self.w = self.problem.residual(&self.x);
             }
         }
         Ok(())
@@ -80,12 +84,12 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
     pub fn measure(&mut self, tolerance: f64) -> Result<f64, Ending> {
         let (eta, sweeps) = (self.note(), self.monitor.iterations());
         if eta <= tolerance {
-            self.iterate.refresh();
-            return Ok(self.iterate.eta());
+            self.w = self.problem.residual(&self.x);
+            return Ok(self.problem.eta(&self.x, &self.w));
         }
-        let force = self.iterate.largest_force();
+        let force = norm_inf(&self.w);
         self.largest_force = self.largest_force.max(force);
-        if force < ROUNDING * self.largest_force && self.iterate.is_unloaded() {
+        if force < ROUNDING * self.largest_force && norm_inf(self.problem.load()) == 0.0 {
             return Err(Ending::Stalled("without loads the forces fall to rounding"));
         }
         if 2.0 * eta <= self.milestone.0 {
@@ -103,13 +107,15 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
         let mut change = 0.0;
         for sweep in 1..=most {
             self.monitor.step()?;
-            change = self.iterate.sweep(self.relaxation.omega);
+            change = self.problem.sweep(&mut self.x, &mut self.w, self.relaxation.omega);
             self.relaxation.observe(change);
-            if let Some(motion) = self.drift.observe(&self.iterate, self.monitor) {
+            if let Some(drift) = self.drift.observe(&self.x)
+                && let Some(motion) = self.problem.recession(&drift, self.monitor)
+            {
                 return Err(Ending::Recession(motion));
             }
             if sweep % MEASURE == 0 || change == 0.0 {
-                let eta = self.iterate.eta_of_sweeps();
+                let eta = self.problem.eta_of_sweeps(&self.x, &self.w);
                 self.monitor.measured(eta);
                 if eta <= target || change == 0.0 {
                     break;
@@ -121,11 +127,10 @@ impl<'m, 'c, I: Iterate> Driver<'m, 'c, I> {
 
     /// Measures the iterate under the problem's own law and keeps it if it is the best.
     fn note(&mut self) -> f64 {
-        let eta = self.iterate.eta();
+        let eta = self.problem.eta(&self.x, &self.w);
         if eta < self.best.0 {
             self.best.0 = eta;
-            self.best.1.clear();
-            self.best.1.extend_from_slice(self.iterate.unknowns());
+            self.best.1.clone_from(&self.x);
         }
         eta
     }

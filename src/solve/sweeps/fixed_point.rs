@@ -9,7 +9,7 @@
 //! *Diagonal*: the threshold follows the pressure inside each sweep. Often fewer sweeps, no
 //! guarantee.
 
-use super::contact_iterate::ContactIterate;
+use super::contact::OnContact;
 use super::driver::{Driver, LARGEST_FACTOR};
 use crate::law::Contact;
 use crate::linalg::vector::{largest_of, norm};
@@ -41,8 +41,7 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     } else {
         LARGEST_FACTOR
     };
-    let iterate = ContactIterate::new(contact, &call.start_or_zero());
-    let mut driver = Driver::new(iterate, settings, largest_factor, monitor);
+    let mut driver = Driver::new(begin(call), settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     let effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
     ended(contact, driver, ending, effort)
@@ -51,10 +50,9 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
 /// Solves Coulomb's problem as a sequence of Tresca problems.
 pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let iterate = ContactIterate::new(contact, &call.start_or_zero());
-    let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
+    let mut driver = Driver::new(begin(call), settings, LARGEST_FACTOR, monitor);
     let mut damping = Damping::new(settings.damping);
-    let mut thresholds = driver.iterate.thresholds();
+    let mut thresholds = contact.thresholds(&driver.x, &driver.w);
     let mut outer_iterations = 0;
     let ending = loop {
         let target = match driver.measure(settings.tolerance) {
@@ -62,13 +60,13 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             Ok(eta) => INNER * eta,
             Err(ending) => break ending,
         };
-        driver.iterate.set_thresholds(&thresholds);
+        driver.problem.working.get_or_insert_with(|| contact.clone()).set_thresholds(&thresholds);
         driver.relaxation.restart();
         if let Err(ending) = driver.relax(target, INNER_SWEEPS) {
             break ending;
         }
         outer_iterations += 1;
-        let updated = driver.iterate.thresholds();
+        let updated = contact.thresholds(&driver.x, &driver.w);
         let change: Vec<f64> =
             updated.iter().zip(&thresholds).map(|(new, old)| new - old).collect();
         let theta = damping.observe(norm(&change));
@@ -81,10 +79,16 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     ended(contact, driver, ending, effort)
 }
 
+/// The problem with its own law, and where sweeps begin.
+fn begin<'c>(call: &Call<'c>) -> (OnContact<'c>, Vec<f64>) {
+    let contact = call.contact;
+    (OnContact { own: contact, working: None }, contact.admissible(&call.start_or_zero()))
+}
+
 /// The last iterate if it is the solution, the best one otherwise.
 fn ended(
     contact: &Contact<'_>,
-    mut driver: Driver<'_, '_, ContactIterate<'_>>,
+    mut driver: Driver<'_, '_, OnContact<'_>>,
     ending: Ending,
     effort: Effort,
 ) -> Candidate {
@@ -93,8 +97,7 @@ fn ended(
     {
         return Candidate::of_displacements(contact, best, ending).with_effort(effort);
     }
-    let (d, force) = driver.iterate.into_parts();
-    Candidate::new(d, force, ending, effort)
+    Candidate::new(driver.x, driver.w, ending, effort)
 }
 
 /// Damping of the threshold update, given or chosen from the measured rate.

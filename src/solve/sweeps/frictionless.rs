@@ -1,8 +1,7 @@
 //! Frictionless contact by sweeps on the clearances.
 
-use super::Iterate;
+use super::clearances::Clearances;
 use super::driver::{Driver, LARGEST_FACTOR};
-use super::lcp_iterate::LcpIterate;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
@@ -30,12 +29,14 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     }
     let (matrix, lower) = (Matrix::new(size, &entries, size.max(1)), vec![0.0; size]);
     let lcp = BoundedLcp { matrix, q: &q, lower: &lower, symmetric: true, remembered: None };
-    let iterate = LcpIterate::new(contact, lcp, condensed.clearances(&call.start_or_zero()));
-    let mut driver = Driver::new(iterate, settings, LARGEST_FACTOR, monitor);
+    let x = condensed.clearances(&call.start_or_zero()).into_iter().enumerate();
+    let x = x.map(|(i, x)| lcp.admissible(i, x)).collect();
+    let mut driver =
+        Driver::new((Clearances { contact, lcp }, x), settings, LARGEST_FACTOR, monitor);
     let mut target = settings.tolerance;
     loop {
         let ending = driver.solve(target).err().unwrap_or(Ending::Done);
-        let d = condensed.displacements(driver.iterate.unknowns());
+        let d = condensed.displacements(&driver.x);
         let mut candidate = Candidate::of_displacements(contact, d, ending);
         candidate.effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
         let done = candidate.ending != Ending::Done

@@ -4,13 +4,12 @@
 //! `0 < omega < 2`, definite `K` or not. `K d - f` is carried along: an unknown that does not change
 //! costs nothing.
 
-use super::Iterate;
+use super::Swept;
 use super::blocks::over_all;
 use super::drift::contact_recession;
 use crate::certificate::eta_of;
 use crate::law::{Contact, PairLaw};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 
 /// So many sweeps with a factor, fewer if the time is up.
@@ -60,70 +59,37 @@ fn sweep_in<const DIM: usize>(
     )
 }
 
-/// An iterate with its force.
-pub struct ContactIterate<'p> {
-    /// The problem with its own law.
-    own: &'p Contact<'p>,
-    /// The problem with the law that the sweeps obey, if it is another.
-    working: Option<Contact<'p>>,
-    d: Vec<f64>,
-    /// `K d - f`.
-    force: Vec<f64>,
+/// The problem with its own law, and with the law that the sweeps obey, if it is another.
+pub struct OnContact<'p> {
+    pub own: &'p Contact<'p>,
+    pub working: Option<Contact<'p>>,
 }
 
-impl<'p> ContactIterate<'p> {
-    /// Starts from `d`, made admissible.
-    pub fn new(contact: &'p Contact<'p>, d: &[f64]) -> Self {
-        let d = contact.admissible(d);
-        let force = contact.problem().force(&d);
-        ContactIterate { own: contact, working: None, d, force }
-    }
-
-    /// Thresholds of the problem's own law at the pressures of the iterate.
-    pub fn thresholds(&self) -> Vec<f64> {
-        self.own.thresholds(&self.d, &self.force)
-    }
-
-    /// Lets the following sweeps obey given thresholds.
-    pub fn set_thresholds(&mut self, thresholds: &[f64]) {
-        self.working.get_or_insert_with(|| self.own.clone()).set_thresholds(thresholds);
-    }
-
-    /// Displacements and forces.
-    pub fn into_parts(self) -> (Vec<f64>, Vec<f64>) {
-        (self.d, self.force)
+impl<'p> OnContact<'p> {
+    fn working(&self) -> &Contact<'p> {
+        self.working.as_ref().unwrap_or(self.own)
     }
 }
 
-impl Iterate for ContactIterate<'_> {
-    fn sweep(&mut self, omega: f64) -> f64 {
-        let (law, matrix) =
-            (self.working.as_ref().unwrap_or(self.own), self.own.problem().stiffness());
-        sweep(law.pairs(), matrix, (&mut self.d, &mut self.force), omega)
+impl Swept for OnContact<'_> {
+    fn sweep(&self, d: &mut [f64], force: &mut [f64], omega: f64) -> f64 {
+        sweep(self.working().pairs(), self.own.problem().stiffness(), (d, force), omega)
     }
 
-    fn eta_of_sweeps(&self) -> f64 {
-        eta_of(self.working.as_ref().unwrap_or(self.own), &self.d, &self.force)
+    fn eta_of_sweeps(&self, d: &[f64], force: &[f64]) -> f64 {
+        eta_of(self.working(), d, force)
     }
 
-    fn eta(&self) -> f64 {
-        eta_of(self.own, &self.d, &self.force)
+    fn eta(&self, d: &[f64], force: &[f64]) -> f64 {
+        eta_of(self.own, d, force)
     }
 
-    fn refresh(&mut self) {
-        self.force = self.own.problem().force(&self.d);
+    fn residual(&self, d: &[f64]) -> Vec<f64> {
+        self.own.problem().force(d)
     }
 
-    fn unknowns(&self) -> &[f64] {
-        &self.d
-    }
-
-    fn largest_force(&self) -> f64 {
-        norm_inf(&self.force)
-    }
-
-    fn is_unloaded(&self) -> bool {
-        norm_inf(self.own.load_with_tension()) == 0.0
+    fn load(&self) -> &[f64] {
+        self.own.load_with_tension()
     }
 
     fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
