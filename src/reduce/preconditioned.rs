@@ -244,6 +244,10 @@ impl StiffnessOperator for &PreconditionedReduction {
     }
 
     fn solve(&mut self, held: Option<&HeldSet>, forces: &[f64], _: GoesOn<'_>) -> Solved {
-        self.precondition(held.expect("something is held before"), forces).map(Some)
+        let solution = match held {
+            Some(held_set) => self.precondition(held_set, forces),
+            None => self.precondition(&HeldSet::none(self.dim, self.pairs), forces),
+        };
+        solution.map(Some)
     }
 }

@@ -50,8 +50,10 @@ impl Side<'_> {
         let count = self.coordinates.len() / self.dim;
         for (i, &node) in nodes.iter().enumerate() {
             if node >= count {
-                let what =
-                    format!("has node {}, the coordinates are those of {count} nodes", index(node));
+                let what = format!(
+                    "has node {}, the coordinates are those of {count} nodes: check the number from which nodes count",
+                    index(node)
+                );
                 return Err(self.refuse(face, &what));
             }
             if nodes[..i].contains(&node) {
@@ -132,7 +134,7 @@ impl Side<'_> {
         };
         let what = format!(
             "and face {} disagree at {where_}: one of them is turned over, or they lie \
-             upon each other; turn the order of its nodes, or leave it out",
+             upon each other; turn the order of its nodes, leave it out, or check the number from which nodes count",
             index(other)
         );
         Err(self.refuse(*face, &what))

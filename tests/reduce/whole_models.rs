@@ -232,7 +232,7 @@ fn skewed_symmetry() {
         for j in 0..=4 {
             for i in 0..=6 {
                 let (a, b) = (2 * own.node(i, j), 2 * block.node(i + 6, j));
-                close(&u[a..a + 2], &u_plain[b..b + 2], 1e-8, "u of a node");
+                close(&u[a..a + 2], &u_plain[b..b + 2], 1e-9, "u of a node");
             }
         }
     });
@@ -485,7 +485,7 @@ fn skewed_symmetry_in_space() {
                 whole_d.extend(&d[place..place + 3]);
                 whole_force.extend(force[place..place + 3].iter().map(|f| part * f));
             }
-            close(&own_d, &whole_d, 1e-8, "d");
+            close(&own_d, &whole_d, 1e-9, "d");
             close(&own_force, &whole_force, TOLERANCE, "F");
         }
     }

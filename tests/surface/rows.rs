@@ -366,7 +366,8 @@ fn wrong_surfaces_are_refused_by_place() {
     let slave = |slave: Vec<Vec<usize>>| message(&square(), &slave, &[]);
     assert_eq!(slave(vec![vec![0, 1]]), "slave face 0 has 2 nodes, a face has 3, 4, 6, 8 or 9");
     assert_eq!(slave(vec![vec![0, 1, 0]]), "slave face 0 has node 0 twice");
-    let missing = "slave face 0 has node 7, the coordinates are those of 4 nodes";
+    let missing = "slave face 0 has node 7, the coordinates are those of 4 nodes: \
+                   check the number from which nodes count";
     assert_eq!(slave(vec![vec![0, 1, 7]]), missing);
     let turned = slave(vec![vec![0, 1, 2], vec![0, 3, 2]]);
     assert!(turned.starts_with("slave face 1 and face 0 disagree at the edge of nodes 2 and 0: "));

@@ -155,10 +155,10 @@ fn the_whole_stress_passes_flat_interfaces() {
                 let carried = force.iter().map(|f| f * f).sum::<f64>().sqrt() / area;
                 let expected = traction.iter().map(|t| t * t).sum::<f64>().sqrt();
                 assert!(
-                    (carried - expected).abs() <= 1e-9 * expected,
+                    (carried - expected).abs() <= 1e-10 * expected,
                     "{kinds:?}: {carried} {expected}"
                 );
-                assert!((force[0] - traction[dim - 1] * area).abs() <= 1e-9 * expected * area);
+                assert!((force[0] - traction[dim - 1] * area).abs() <= 1e-10 * expected * area);
             }
             *if traction[dim - 1] > 0.0 { &mut pulled } else { &mut pressed } += 1;
         }
