@@ -94,7 +94,7 @@ class Zones(unittest.TestCase):
                 own = gap[name] if isinstance(gap, dict) else gap
                 if np.isinf(own):
                     continue
-                part = result.zone(name, gap)
+                part = result.zone(name)
                 # What presses is closed, as far as the zone can tell.
                 clearance = zones[name].fields(part, gap=np.full(2, own)).clearance[nodes]
                 np.testing.assert_allclose(clearance, 0, atol=1e-12)

@@ -362,7 +362,9 @@ class Model(Remade):
             case, contact = data if cases is None else data.of(c), self._zones or self.contact
             result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
             passed = self._penetration(case, result) if penetration and contact else None
-            results.append(result._replace(contact=contact, penetration=passed))
+            gaps = copy.copy(gap) if isinstance(gap, dict) else case.gap
+            given = gaps if self._zones and gap is not None else None
+            results.append(result._replace(contact=contact, penetration=passed, gaps=given))
         return results[0] if cases is None else results
 
     def _penetration(self, case, result):

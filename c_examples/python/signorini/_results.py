@@ -21,7 +21,7 @@ memory: bytes that it needs in all, told before they are taken; 0 before they ar
 """
 
 _Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "
-                     "escape contact penetration frames", defaults=(None, None, None, None, None, None))
+                     "escape contact penetration frames gaps", defaults=(None, None, None, None, None, None, None))
 
 
 class Result(_Fields):
@@ -45,6 +45,7 @@ class Result(_Fields):
     without a pair, of which solve warns; None: nothing has.
     frames: of a zone that shares pairs with others, where they cut a smooth surface, normal and tangents of each pair, as
     Model.frames has them; None: those of contact.
+    gaps: of a model with several zones those of the case, by zone or for all pairs; None: those of the contacts.
 
     A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
     """
@@ -55,13 +56,13 @@ class Result(_Fields):
         """For pickle and copy: all but contact, which belongs to this process."""
         return tuple(self._replace(contact=None))
 
-    def zone(self, name, gap=None):
+    def zone(self, name):
         """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs.
 
         The force of a pair that zones share, where they cut a smooth surface, is shared by their areas, and its d counts
-        from the gap of the zone. gap: that of the case, as solve has it; None: that of the contacts.
+        from the gap of the zone.
         """
-        return self._zones().of(self, name, gap)
+        return self._zones().of(self, name)
 
     def table(self):
         """Pairs by state, pressed area and force of each zone: a list of (zone, pairs, open, slip, stick,

@@ -177,8 +177,8 @@ class Zones(Remade):
             if name not in values:
                 raise KeyError(f"{what} lacks the zone {name!r}: give numbers for each of {known}")
 
-    def of(self, result, name, gap=None):
-        """The part of a result that belongs to a zone. gap: that of the step, for all pairs or a dict; None: that of the contacts.
+    def of(self, result, name):
+        """The part of a result that belongs to a zone.
 
         The force of a pair of several zones is shared by areas, so that each has the pressure, and its motion is that from
         the gap of the zone, so that each has the clearance. It keeps its normal; tangents are those of the zone's own pair.
@@ -198,10 +198,10 @@ class Zones(Remade):
                 if parts[field] is not None:
                     parts[field][shared, 1:] = np.einsum("pij,pj->pi", turn, parts[field][shared, 1:])
             with np.errstate(invalid="ignore"):
-                lifted = self._own_gaps(name, gap)[shared] - self._all_gaps(gap)[place[shared]]
+                lifted = self._own_gaps(name, result.gaps)[shared] - self._all_gaps(result.gaps)[place[shared]]
             parts["d"][shared, 0] += np.where(np.isfinite(lifted), lifted, 0.0)  # infinite ones never touch
         second = None if result.second is None else self.of(result.second, name)
-        return result._replace(contact=contact, second=second, frames=frames, **parts)
+        return result._replace(contact=contact, second=second, frames=frames, gaps=None, **parts)
 
     def _all_gaps(self, gap):
         """The gaps of all pairs in a step."""
