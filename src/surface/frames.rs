@@ -33,7 +33,8 @@ fn tangents(normal: Vector3, towards: Vector3, held: &[Vector3]) -> [Vector3; 2]
         // A frame has a tangent along a direction that is held.
         [across] => {
             let along = across.cross(&normal);
-            let is_nearer = along.dot(&towards).abs() >= across.dot(&towards).abs();
+            let nearness = |tangent: Vector3| tangent.dot(&towards).abs();
+            let is_nearer = nearness(along) >= nearness(*across) - ERROR_OF_DIRECTION;
             let nearer = if is_nearer { along } else { *across };
             if nearer.dot(&towards) < 0.0 { -nearer } else { nearer }
         }
