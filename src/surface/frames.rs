@@ -11,13 +11,11 @@ impl SurfacePairs {
         let towards = towards.and_then(|towards| unit(towards.into()));
         let towards = towards.unwrap_or_else(|| most_across(self.mean_squares()));
         for at in 0..self.pairs.len() {
-            let normal = Vector3::from(self.pairs[at].normal);
-            let tangents = match self.dim {
-                2 => plane::tangents(2, normal),
-                _ => tangents(normal, towards, &self.held(self.pairs[at].slave)),
-            };
-            self.pairs[at].tangents = tangents.map(Into::into);
+            let pair = &self.pairs[at];
+            let found = tangents(self.dim, pair.normal.into(), towards, &self.held(pair.slave));
+            self.pairs[at].tangents = found.map(Into::into);
         }
+        self.towards = towards.into();
     }
 
     /// Squares of the components of the normals, by area.
@@ -27,8 +25,16 @@ impl SurfacePairs {
     }
 }
 
-/// Tangents of a normal, the first towards a unit vector as nearly as may be.
-fn tangents(normal: Vector3, towards: Vector3, held: &[Vector3]) -> [Vector3; 2] {
+/// Tangents of a normal, in space the first towards a unit vector as nearly as may be.
+pub(super) fn tangents(
+    dim: usize,
+    normal: Vector3,
+    towards: Vector3,
+    held: &[Vector3],
+) -> [Vector3; 2] {
+    if dim == 2 {
+        return plane::tangents(dim, normal);
+    }
     let first = match held {
         // A frame has a tangent along a direction that is held.
         [across] => {
@@ -42,7 +48,7 @@ fn tangents(normal: Vector3, towards: Vector3, held: &[Vector3]) -> [Vector3; 2]
             let along = towards - normal.dot(&towards) * normal;
             match unit(along).filter(|_| along.norm() > ERROR_OF_DIRECTION) {
                 Some(first) => first,
-                None => return plane::tangents(3, normal),
+                None => return plane::tangents(dim, normal),
             }
         }
     };

@@ -121,6 +121,8 @@ pub struct SurfacePairs {
     pub held: BTreeMap<usize, Vec<[f64; 3]>>,
     /// The images of nodes in the neighbours of a sector and beyond planes of symmetry.
     pub images: Images,
+    /// The unit vector that first tangents point towards in space.
+    pub towards: [f64; 3],
     /// The report on the pairing.
     pub report: SurfaceReport,
 }

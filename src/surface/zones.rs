@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
+use super::frames::tangents;
 use super::mesh::ON_PLANE;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
 use super::sector_boundary::at_images;
@@ -45,12 +46,13 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     let mut joined = SurfacePairs {
         dim: zones[0].contact.dim,
         axisymmetric: zones[0].contact.axisymmetric,
+        towards: zones[0].contact.towards,
         ..SurfacePairs::default()
     };
     let mut starts = vec![0];
-    // The places of the pairs of a node, and the rows that are summed for each pair.
+    // The places of the pairs of a node, and the rows that are summed for each pair, with the direction of first tangents.
     let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
-    let mut parts: Vec<Vec<SurfacePair>> = Vec::new();
+    let mut parts: Vec<(Vec<SurfacePair>, [f64; 3])> = Vec::new();
     let points = zones.iter().flat_map(|zone| &zone.contact.pairs).map(|pair| pair.point);
     let size = points.flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
     for ContactZone { name, contact, .. } in zones {
@@ -66,20 +68,23 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
         for pair in &contact.pairs {
             let pair = pair.renumbered(&contact.images, &numbers);
             let of_node = places.entry(pair.slave).or_default();
-            let same = of_node.iter().find(|&&at| parts[at][0].is_of_the_surface_of(&pair));
+            let same = of_node.iter().find(|&&at| parts[at].0[0].is_of_the_surface_of(&pair));
             if let Some(&at) = same {
-                parts[at].push(pair);
+                parts[at].0.push(pair);
             } else {
                 of_node.push(parts.len());
-                parts.push(vec![pair]);
+                parts.push((vec![pair], contact.towards));
             }
         }
         joined.unpaired.extend(&contact.unpaired);
         joined.report.add(&contact.report);
         starts.push(parts.len());
     }
-    joined.pairs =
-        parts.iter().map(|parts| SurfacePair::sum(parts, &joined.held(parts[0].slave))).collect();
+    let sum = |(parts, towards): (Vec<SurfacePair>, [f64; 3])| {
+        let held = joined.held(parts[0].slave);
+        SurfacePair::sum(joined.dim, parts, (towards.into(), &held))
+    };
+    joined.pairs = parts.into_iter().map(sum).collect();
     check_boundary(&joined, &starts, zones)
         .map_err(|message| Error::invalid(Argument::Pairs, message))?;
     let mut told = HashSet::new();
@@ -238,12 +243,15 @@ impl SurfacePair {
         own.dot(&others) > SAME_WAY && self.masters().is_empty() == other.masters().is_empty()
     }
 
-    /// The sum of the rows of one node on parts of the faces around it, by their areas, with the frame of the first. The node
-    /// is held along orthonormal directions.
-    fn sum(parts: &[SurfacePair], held: &[Vector3]) -> SurfacePair {
-        let first = &parts[0];
+    /// The sum of the rows of one node on parts of the faces around it, by their areas, with a first tangent towards a direction.
+    /// The node is held along orthonormal directions.
+    fn sum(
+        dim: usize,
+        mut parts: Vec<SurfacePair>,
+        (towards, held): (Vector3, &[Vector3]),
+    ) -> SurfacePair {
         if parts.len() == 1 {
-            return first.clone();
+            return parts.swap_remove(0);
         }
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let mean = |value: fn(&SurfacePair) -> f64| {
@@ -253,26 +261,19 @@ impl SurfacePair {
             parts.iter().map(|part| part.area / area * Vector3::from(vector(part))).sum()
         };
         let normal = unit(without(mean_vector(|part| part.normal), held));
-        let normal = normal.unwrap_or_else(|| first.normal.into());
-        // The tangents hardly turn, so that slips in the frames of the zone are those of the joined pair.
-        let [along, across] = first.tangents.map(|tangent| {
-            let tangent = Vector3::from(tangent);
-            tangent - normal.dot(&tangent) * normal
-        });
-        let along = unit(along).unwrap_or(along);
-        let across = if across == Vector3::zeros() { across } else { normal.cross(&along) };
+        let normal = normal.unwrap_or_else(|| parts[0].normal.into());
         let mut sum = SurfacePair {
             point: mean_vector(|part| part.point).into(),
             normal: normal.into(),
-            tangents: [along.into(), across.into()],
+            tangents: tangents(dim, normal, towards, held).map(Into::into),
             gap: mean(|part| part.gap),
             measured_gap: mean(|part| part.measured_gap),
             area,
-            ..first.clone()
+            ..parts[0].clone()
         };
         // Slaves, then masters.
         let mut weights: BTreeMap<(bool, usize), f64> = BTreeMap::new();
-        for part in parts {
+        for part in &parts {
             for (at, (node, weight)) in part.nodes.iter().enumerate() {
                 let is_master = at >= part.slave_count;
                 *weights.entry((is_master, *node)).or_default() += part.area / area * weight;

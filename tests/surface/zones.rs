@@ -256,7 +256,8 @@ fn zones_pass_a_uniform_pressure_where_nodes_are_folded() {
     }
 }
 
-/// Four zones of a bowl meet in a node. Each zone has another mean normal there; the sum does not depend on their order.
+/// Four zones of a bowl meet in a node. Each zone has another mean normal there; the sum does not depend on their order, and its
+/// first tangent is the part of the direction asked for.
 #[test]
 fn the_order_of_zones_changes_no_pair() {
     let mut rng = Rng::with_seed(9);
@@ -270,7 +271,9 @@ fn the_order_of_zones_changes_no_pair() {
         for part in cut(&both.slave, &both.nodes, true) {
             zones.push([part, both.master.clone()]);
         }
-        let settings = SurfaceSettings::default();
+        let towards = [1.0, 0.3, 0.2];
+        let tangent = Some(towards);
+        let settings = SurfaceSettings { tangent, ..SurfaceSettings::default() };
         let sorted = |zones: &[Sides]| {
             let mut pairs = paired(3, &both.nodes, zones, &settings).contact.pairs;
             pairs.sort_by_key(|pair| pair.slave);
@@ -285,6 +288,11 @@ fn the_order_of_zones_changes_no_pair() {
             let is_near = |a: f64, b: f64| (a - b).abs() < 1e-14;
             let same = pair.normal.iter().zip(&expected.normal).all(|(a, b)| is_near(*a, *b));
             assert!(same && is_near(pair.gap, expected.gap), "{shape:?}: {pair:?}, {expected:?}");
+            let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
+            let along = dot(towards, pair.normal);
+            let part: [f64; 3] = std::array::from_fn(|i| towards[i] - along * pair.normal[i]);
+            let length = dot(part, part).sqrt();
+            assert!((0..3).all(|i| is_near(part[i] / length, pair.tangents[0][i])), "{pair:?}");
             let nodes = pair.nodes.iter().zip(&expected.nodes);
             assert!(nodes.into_iter().all(|(a, b)| a.0 == b.0 && is_near(a.1, b.1)), "{shape:?}");
         }
