@@ -99,7 +99,7 @@ done <"$work/names"
 # Fields of structures, as settings.search: a line of the structure ends with the name.
 grep -ohE '\b(settings|report|extra)\.[A-Za-z_0-9]+' "$guide"/*.md | sort -u >"$work/fields"
 while read -r field; do
-    grep -qE "^    [a-z].*[ *]${field#*.};" $headers || die "the header has no field $field"
+    grep -qE "^    [a-z].*[ *]${field#*.}(\\[[0-9]+\\])?;" $headers || die "the header has no field $field"
 done <"$work/fields"
 say "$(wc -l <"$work/names" | tr -d ' ') names and $(wc -l <"$work/fields" | tr -d ' ') fields of the header"
 
