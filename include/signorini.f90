@@ -307,7 +307,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 80 + 10 * address_bytes
+        integer(c_int32_t) :: struct_size = 128 + 10 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
