@@ -31,28 +31,14 @@ pub(super) fn pairs(
     settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let SurfaceSettings {
-        search_distance,
-        axisymmetric,
-        sector,
-        close_within,
-        clearance,
-        tangent,
-        ..
-    } = *settings;
-    let settings = &SurfaceSettings {
-        search_distance,
-        axisymmetric,
-        sector,
-        close_within,
-        clearance,
-        tangent,
-        ..Default::default()
-    };
+    // A shape has normals of its own and no rim, and needs no images of planes.
+    let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
+    let settings =
+        &SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() };
     let settings = &settings.checked(side.dim)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
-    let side = side.checked((unit.inside, axisymmetric), watch)?;
+    let side = side.checked((unit.inside, settings.axisymmetric), watch)?;
     let mut on = OnPlanes::new(&side, settings)?;
     let images = WithImages::new(settings, (&side, &mut on), None, watch)?;
     let Some(images) = images else {
