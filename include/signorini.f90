@@ -129,6 +129,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_NORMALS_FACES = 1
     integer(c_int32_t), parameter :: SIGNORINI_RIMS_FOLD = 0
     integer(c_int32_t), parameter :: SIGNORINI_RIMS_KEEP = 1
+    integer(c_int32_t), parameter :: SIGNORINI_RIMS_FOLD_LITTLE = 2
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_PLANE = 0
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_CYLINDER = 1
     integer(c_int32_t), parameter :: SIGNORINI_OBSTACLE_SPHERE = 2
@@ -1780,7 +1781,7 @@ contains
     ! symmetry_axes, symmetry_at: planes of symmetry of half and quarter models, the axis across each
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
-    ! or _KEEP. settings: in the place of the defaults, for axisymmetric, fitted, slave_shape and the fields after it,
+    ! _KEEP or _FOLD_LITTLE. settings: in the place of the defaults, for axisymmetric, fitted, slave_shape and the fields after it,
     ! time_limit, progress and user; an argument that is present comes before it. Of its lists symmetry_normals, with
     ! symmetry_planes and symmetry_at, and those of a sector are read; index_base is not.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
@@ -2219,7 +2220,7 @@ contains
         end if
         if (present(rims)) then
             told%settings%rims = number(rims)
-            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_KEEP) &
+            if (rims < SIGNORINI_RIMS_FOLD .or. rims > SIGNORINI_RIMS_FOLD_LITTLE) &
                 call refuse(wrong, first + 6, 'there is no choice of rims ' // text(rims))
         end if
     end subroutine

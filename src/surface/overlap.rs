@@ -14,9 +14,8 @@ use crate::linalg::vector3::Vector3;
 /// edges that lie upon each other.
 const LEAST_PART: f64 = 1e-13;
 
-/// The error that fewer points may leave: that of the most. And the error of areas where faces are warped.
+/// The error that fewer points may leave: that of the most.
 const LEFT: f64 = 1e-12;
-const LEFT_OF_AREA: f64 = 1e-11;
 
 /// Straight edges that stand for curved ones leave a share of the area to the neighbour; points may leave this part of it.
 const OF_SAG: f64 = 1e-4;
@@ -199,7 +198,7 @@ impl<'a> SlaveFace<'a> {
             false => 0,
         };
         let of_warp = match warp > ON_EDGE {
-            true => 2 * (terms(warp * warp, LEFT_OF_AREA.max(of_edges)) - 1),
+            true => 2 * (terms(warp * warp, LEFT.max(of_edges)) - 1),
             false => 0,
         };
         Some(of_distortion.max(of_warp))

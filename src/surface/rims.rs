@@ -17,8 +17,11 @@ use super::watch::Watch;
 use crate::error::Error;
 
 /// Nodes with less than this share of cover are at a rim. On 36 unstructured meshes the error of a linear pressure is
-/// with a half that of meshes that are covered wholly, with 0.3 twice and with a tenth three times as large.
+/// with a half that of meshes that are covered wholly, with three tenths twice and with a tenth three times as large.
 const LEAST_COVER: f64 = 0.5;
+
+/// The same where more pairs at the rim count more than that error.
+const LEAST_OF_MANY: f64 = 0.3;
 
 /// Where so few nodes have that much that they could not hold a body, and where no node beside a rim has it, as under a
 /// punch of the size of a face, the rim is of nodes with less than this: pressures are less exact then, but moments
@@ -101,11 +104,14 @@ pub(super) fn fold(
 
 /// The share of cover with which a node keeps its row.
 fn least_cover(rims: Rims, rows: &BTreeMap<usize, Row>, dim: usize) -> f64 {
-    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
-    match rims {
-        Rims::Keep => SAME_COVER,
-        Rims::Fold if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
+    let asked = match rims {
+        Rims::Keep => return SAME_COVER,
+        Rims::FoldLittle => LEAST_OF_MANY - SAME_COVER,
         Rims::Fold => LEAST_COVER - SAME_COVER,
+    };
+    match rows.values().filter(|row| row.cover() >= asked).count() < dim {
+        true => LITTLE_COVER - SAME_COVER,
+        false => asked,
     }
 }
 

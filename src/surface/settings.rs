@@ -41,6 +41,9 @@ pub enum Rims {
     /// Each gives its row to a node of its own faces; if none can take it, it keeps it. Uniform pressure stays exact.
     #[default]
     Fold,
+    /// Those alone that have less than three tenths: pressures at the rim are resolved by more pairs, and those that are not
+    /// uniform have up to twice the errors there.
+    FoldLittle,
     /// They keep pairs of their own, with small areas. Uniform pressure stays exact, but under others the
     /// pressures of these nodes may be large, and their rows hold points in the air by masters beside them. With
     /// less than a millionth of cover, where a row would be rounding, they are folded all the same.

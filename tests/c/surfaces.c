@@ -270,7 +270,7 @@ static void choices(void)
     memcpy(moved, places, sizeof moved);
     for (int little = 0; little < 2; little++) {
         moved[10] = ends[little];
-        for (int32_t rims = 0; rims < 2; rims++) {
+        for (int32_t rims = 0; rims < 3; rims++) {
             signorini_surface_settings settings = defaults();
             settings.search_distance = 0.5;
             settings.rims = rims;

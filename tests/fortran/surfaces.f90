@@ -159,10 +159,10 @@ contains
                 normals=int(SIGNORINI_NORMALS_FACES), message=message)
             call expect('of faces', info == 0 .and. all(abs(surfaces%normal(:, 1) - [0, -1]) < 1d-15))
         end do
-        do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_KEEP
+        do rims = SIGNORINI_RIMS_FOLD, SIGNORINI_RIMS_FOLD_LITTLE
             call surfaces%pair(around, sides, floor, info, search_distance=0.5_dp, rims=rims, message=message)
             call expect('rims', info == 0 .and. surfaces%pairs == merge(3, 2, rims == SIGNORINI_RIMS_KEEP))
-            call expect('folded', surfaces%data%n_folded == merge(1, 0, rims == SIGNORINI_RIMS_FOLD))
+            call expect('folded', surfaces%data%n_folded == merge(1, 0, rims /= SIGNORINI_RIMS_KEEP))
         end do
         call surfaces%pair_rigid(around(:, :4), sides, around(:, 5:), floor - 4, info, search_distance=0.5_dp, &
             normals=int(SIGNORINI_NORMALS_FACES), rims=int(SIGNORINI_RIMS_KEEP), message=message)

@@ -151,6 +151,7 @@ class Rims(IntEnum):
 
     FOLD = 0
     KEEP = 1
+    FOLD_LITTLE = 2
 
 
 class Obstacle(IntEnum):

@@ -101,7 +101,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
     rims: slave nodes with less than half of their area over the master "fold" into the nearest
-    nodes of their faces, or "keep" pairs of their own; by "node_to_surface" the default alone.
+    nodes of their faces, or "keep" pairs of their own; "fold_little": those with less than three tenths fold, so that
+    more pairs resolve the rim. By "node_to_surface" the default alone.
     axisymmetric: lines in 2D are meridians of bodies of revolution about the axis x = 0; areas are those
     of whole rings, and so must be stiffness and loads.
     slave_shape, master_shape: the true shape of a side, of which its faces are facets, as a Plane, Sphere,
@@ -309,14 +310,20 @@ class SurfacePairs(Remade):
             return vectors
         return doubles(np.einsum("pik,pjk,pj->pi", frames_of(self.normals, self.tangents), frames, vectors))
 
-    def adjusted(self, within=np.inf):
-        """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet, once.
+    def adjusted(self, within=np.inf, moves=2):
+        """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet.
 
         within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn.
-        Assemble K with these coordinates, and pair them again; of quadratic faces adjusting those pairs too leaves less.
+        moves: how often; the moved nodes are paired again before the next. A second one leaves less at
+        single pairs of quadratic faces.
+        Assemble K with these coordinates, and pair them again.
         """
-        coordinates = self._coordinates.copy()
-        self._do("surface_adjust", float(within), at(coordinates))
+        contact, coordinates = self, self._coordinates.copy()
+        for move in range(moves):
+            if move:
+                make, _, *settings = self._made_of
+                contact = SurfacePairs(make, coordinates, *settings, 0.0, None)
+            contact._do("surface_adjust", float(within), at(coordinates))
         return coordinates
 
     def penetration(self, u):
