@@ -235,6 +235,7 @@ struct signorini_surface_settings {
      * same, which you give as equations.
      */
     double period[3];
+    double second_period[3]; /**< The same of a body that repeats along a second line too. */
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

@@ -130,6 +130,8 @@ pub struct SignoriniSurfaceSettings {
     /// of the mesh to the second, dim entries; default 0, 0, 0: none. Displacements of both are the
     /// same, which you give as equations.
     pub period: [f64; 3],
+    /// The same of a body that repeats along a second line too.
+    pub second_period: [f64; 3],
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -253,9 +255,10 @@ impl SignoriniSurfaceSettings {
     /// The sector.
     fn sector(&self, at: At<'_>, dim: usize) -> Outcome<Option<Sector>> {
         let count = at.field("sectors").size(self.sectors)?;
-        match (count, self.period.iter().any(|part| *part != 0.0)) {
+        let periods = [self.period, self.second_period];
+        match (count, periods.as_flattened().iter().any(|part| *part != 0.0)) {
             (0, false) => return Ok(None),
-            (0, true) => return Ok(Some(Sector { period: self.period, ..Sector::default() })),
+            (0, true) => return Ok(Some(Sector { periods, ..Sector::default() })),
             (_, false) => {}
             (_, true) => return at.refuse_part("has sectors and a period: leave one of them out"),
         }

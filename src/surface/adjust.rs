@@ -98,7 +98,7 @@ impl SurfacePairs {
         let images = &self.images;
         let named =
             self.pairs.iter().flat_map(|pair| &pair.nodes).map(|(node, _)| images.of(*node).0);
-        let named = named.chain(images.on_second().map(|(second, _)| second));
+        let named = named.chain(images.on_second().iter().map(|(second, ..)| *second));
         let least = named.map(|node| dim * (node + 1)).max().unwrap_or(0);
         if coordinates.len() < least {
             let message =
@@ -122,9 +122,9 @@ impl SurfacePairs {
         for (node, moved) in motions.nodes.iter().zip(moves.chunks_exact(dim)) {
             coordinates[dim * node..].iter_mut().zip(moved).for_each(|(x, moved)| *x += moved);
         }
-        for (second, first) in images.on_second() {
-            if let Ok(place) = motions.nodes.binary_search(&first) {
-                let moved = images.to_second().turn * vector(&moves[dim * place..][..dim]);
+        for (second, first, motion) in images.on_second() {
+            if let Ok(place) = motions.nodes.binary_search(first) {
+                let moved = motion.turn * vector(&moves[dim * place..][..dim]);
                 coordinates[dim * second..][..dim]
                     .iter_mut()
                     .zip(&moved)

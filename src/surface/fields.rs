@@ -136,9 +136,9 @@ impl SurfacePairs {
             let held = self.held(*node);
             [&mut sum.traction, &mut sum.slip].into_iter().for_each(|v| *v = without(*v, &held));
         }
-        for (second, first) in self.images.on_second() {
-            let image = sums.get(&first).map(|sum| sum.turned(&self.images.to_second().turn));
-            sums.extend(image.map(|image| (second, image)));
+        for (second, first, motion) in self.images.on_second() {
+            let image = sums.get(first).map(|sum| sum.turned(&motion.turn));
+            sums.extend(image.map(|image| (*second, image)));
         }
         let mut fields = NodalFields::default();
         for (node, sum) in sums {

@@ -8,6 +8,9 @@ use super::motion::Motion;
 use super::sector::Sector;
 use crate::linalg::vector3::{Matrix3, Vector3};
 
+/// A node on a second boundary, that on the first whose image it is, and the motion from there.
+type OnSecond = (usize, usize, Motion);
+
 /// The images of a host's nodes, counted behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images {
@@ -19,8 +22,8 @@ pub struct Images {
     places: Vec<Motion>,
     /// Each image: the place of its motion, and its node.
     list: Vec<(usize, usize)>,
-    /// Nodes on the second boundary, ascending, with those on the first whose images they are.
-    second: Vec<(usize, usize)>,
+    /// Nodes on second boundaries, ascending.
+    second: Vec<OnSecond>,
 }
 
 impl Images {
@@ -35,10 +38,11 @@ impl Images {
         self.are_of_sector().then_some(self.sector)
     }
 
-    /// Adds a node on the second boundary, with that on the first whose image it is.
-    pub(super) fn add_second(&mut self, second: usize, first: usize) {
-        let place = self.second.partition_point(|(other, _)| *other < second);
-        self.second.insert(place, (second, first));
+    /// Adds a node on a second boundary.
+    pub(super) fn add_second(&mut self, on_second: OnSecond) {
+        if let Err(place) = self.place_of_second(on_second.0) {
+            self.second.insert(place, on_second);
+        }
     }
 
     /// `true` in a sector.
@@ -61,8 +65,10 @@ impl Images {
     pub(super) fn home(&self, node: usize) -> (usize, Motion) {
         let (place, node) = self.at(node);
         let motion = self.motion(place);
-        let of_first = |first| (first, motion.after(&self.sector.motion(1)));
-        self.first_of(node).map_or((node, motion), of_first)
+        match self.place_of_second(node) {
+            Err(_) => (node, motion),
+            Ok(at) => (self.second[at].1, motion.after(&self.second[at].2)),
+        }
     }
 
     /// The place of the motion and the node of an image; of other nodes themselves.
@@ -110,30 +116,24 @@ impl Images {
         self.list.iter().map(move |(place, node)| self.places[*place].of(of_host(*node)))
     }
 
-    /// From the first boundary to the second.
-    pub(super) fn to_second(&self) -> Motion {
-        self.sector.motion(1)
-    }
-
     /// `true` of a node that the model has, and not its neighbour on the second boundary.
     pub(super) fn is_own(&self, node: usize) -> bool {
-        !self.has(node) && self.first_of(node).is_none()
+        !self.has(node) && self.place_of_second(node).is_err()
     }
 
-    /// The node on the first boundary whose image one on the second is.
-    fn first_of(&self, node: usize) -> Option<usize> {
-        let place = self.second.binary_search_by_key(&node, |(second, _)| *second);
-        place.ok().map(|place| self.second[place].1)
+    /// Where a node is among those on second boundaries, or would be.
+    fn place_of_second(&self, node: usize) -> Result<usize, usize> {
+        self.second.binary_search_by_key(&node, |(second, ..)| *second)
     }
 
-    /// The nodes on the first boundary.
+    /// The nodes on first boundaries.
     pub(super) fn on_first(&self) -> BTreeSet<usize> {
-        self.second.iter().map(|(_, first)| *first).collect()
+        self.second.iter().map(|(_, first, _)| *first).collect()
     }
 
-    /// The nodes on the second boundary, each with that on the first whose image it is.
-    pub(super) fn on_second(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.second.iter().copied()
+    /// The nodes on second boundaries.
+    pub(super) fn on_second(&self) -> &[OnSecond] {
+        &self.second
     }
 
     /// Takes in the images of another zone of the same host, within so much of the origin, and returns the numbers that they
@@ -142,9 +142,8 @@ impl Images {
     /// # Errors
     /// They are those of another sector, or of a host with another number of nodes.
     pub(super) fn join(&mut self, other: &Images, size: f64) -> Result<Vec<usize>, ()> {
-        let is_other_sector = self.are_of_sector()
-            && other.are_of_sector()
-            && !self.to_second().is(&other.to_second(), size);
+        let sectors = self.sector().zip(other.sector());
+        let is_other_sector = sectors.is_some_and(|(own, other)| !own.is(&other, size));
         let is_other_host =
             !self.list.is_empty() && !other.list.is_empty() && self.nodes != other.nodes;
         if is_other_sector || is_other_host {
@@ -157,9 +156,7 @@ impl Images {
             // A zone without images has not counted the nodes.
             (self.nodes, self.places) = (other.nodes, other.places.clone());
         }
-        self.second.extend(&other.second);
-        self.second.sort_unstable();
-        self.second.dedup();
+        other.second.iter().for_each(|on_second| self.add_second(*on_second));
         let mut known: HashMap<_, _> = (self.list.iter().copied()).zip(self.nodes..).collect();
         let numbers = other.list.iter().map(|&(place, node)| {
             let motion = other.places[place];

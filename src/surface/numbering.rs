@@ -1,6 +1,6 @@
 //! Numbers of images while they are looked for: one for all images at one place that are the same node of the whole body.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::images::Images;
 use super::mesh::Side;
@@ -57,16 +57,36 @@ impl Numbering {
             nodes.iter().for_each(|node| self.lay(*node, (*motion, *node)));
         }
         let Some(sector) = self.images.sector() else { return Ok(()) };
-        let [ahead, back] = [1, -1].map(|by| sector.motion(by));
-        for &node in &on.on_axis {
-            self.lay(node, (ahead, node));
-            self.lay(node, (back, node));
+        let (mut on_boundaries, mut seconds) = (BTreeSet::new(), BTreeSet::new());
+        for [ahead, back] in sector.steps() {
+            for &node in &on.on_axis {
+                self.lay(node, (ahead, node));
+                self.lay(node, (back, node));
+            }
+            for (second, first) in second_boundary(&ahead, side, watch)? {
+                self.lay(second, (ahead, first));
+                self.lay(first, (back, second));
+                seconds.insert(second);
+                on_boundaries.extend([second, first]);
+            }
         }
-        for (second, first) in second_boundary(&sector, side, watch)? {
-            self.lay(second, (ahead, first));
-            self.lay(first, (back, second));
-            if !side.is_rigid() {
-                self.images.add_second(second, first);
+        if side.is_rigid() { Ok(()) } else { self.name_firsts(&on_boundaries, &seconds) }
+    }
+
+    /// Of nodes that are images of each other one is the first, if there is one that is on no second boundary.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn name_firsts(
+        &mut self,
+        on_boundaries: &BTreeSet<usize>,
+        seconds: &BTreeSet<usize>,
+    ) -> Result<(), Error> {
+        for &node in on_boundaries {
+            let same = self.same((0, node))?.into_iter();
+            let first = same.min_by_key(|(_, other)| (seconds.contains(other), *other));
+            if let Some((place, first)) = first.filter(|(_, first)| *first != node) {
+                self.images.add_second((node, first, self.images.motion(place)));
             }
         }
         Ok(())
@@ -75,9 +95,8 @@ impl Numbering {
     /// The motions that lay a side upon the images beside it.
     pub(super) fn steps(&self, on: &OnPlanes) -> Vec<Motion> {
         let mirrors = on.mirrors.iter().map(|mirror| mirror.motion);
-        let turns =
-            self.images.sector().into_iter().flat_map(|sector| [1, -1].map(|by| sector.motion(by)));
-        mirrors.chain(turns).collect()
+        let of_sector = self.images.sector().map_or(Vec::new(), |sector| sector.steps());
+        mirrors.chain(of_sector.as_flattened().iter().copied()).collect()
     }
 
     /// Tells that a motion lays a node, the second one, upon another one.

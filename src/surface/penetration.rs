@@ -162,8 +162,8 @@ impl KeptSurfaces {
             let place = self.nodes.binary_search(&node);
             place.into_iter().for_each(|place| nodes[place] = true);
         }
-        for (second, first) in pairs.images.on_second() {
-            let [second, first] = [second, first].map(|node| self.nodes.binary_search(&node));
+        for (second, first, _) in pairs.images.on_second() {
+            let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
             second.into_iter().zip(first).for_each(|(second, first)| nodes[second] = nodes[first]);
         }
         pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);

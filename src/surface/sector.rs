@@ -1,10 +1,10 @@
-//! A sector of a body that repeats about an axis or along a line.
+//! A sector of a body that repeats about an axis, or along one line or two.
 
 use std::f64::consts::TAU;
 
 use super::motion::Motion;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::{self, Vector3, turn_about, unit, vector};
+use crate::linalg::vector3::{self, ERROR_OF_DIRECTION, Vector3, turn_about, unit, vector};
 
 /// A sector of a body that consists of such sectors, each turned or shifted against the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,9 +16,9 @@ pub struct Sector {
     pub axis: [f64; 3],
     /// Number of sectors of the whole, at least 2.
     pub count: usize,
-    /// Of a body that repeats along a line without end the way from the first boundary to the second; else zero.
-    /// Then the fields before are not read.
-    pub period: [f64; 3],
+    /// Of a body that repeats along a line without end, or along two, the ways from a first boundary to a second; else
+    /// zero. Then the fields before are not read.
+    pub periods: [[f64; 3]; 2],
 }
 
 impl Sector {
@@ -30,12 +30,20 @@ impl Sector {
         let refuse =
             |what: &str| Err(Error::invalid(Argument::Settings, format!("sector: {what}")));
         if self.is_shifted() {
-            let period = vector(&self.period[..dim]);
-            if unit(period).is_none() {
-                let [x, y, z] = self.period;
+            let periods = self.periods.map(|period| vector(&period[..dim]));
+            let ways = periods.map(unit);
+            // One way may be left out.
+            let is_none = |k: &usize| ways[*k].is_none() && is_given(&self.periods[*k]);
+            if let Some(k) = (0..ways.len()).find(is_none) {
+                let [x, y, z] = self.periods[k];
                 return refuse(&format!("its period {x}, {y}, {z} is no way"));
             }
-            return Ok(Sector { count: 1, period: period.into(), ..Sector::default() });
+            if let [Some(one), Some(other)] = ways
+                && one.cross(&other).norm() < ERROR_OF_DIRECTION
+            {
+                return refuse("its two periods are along one line: give the shorter one alone");
+            }
+            return Ok(Sector { count: 1, periods: periods.map(Into::into), ..Sector::default() });
         }
         let [x, y, z] = self.axis;
         let axis = if dim == 2 { Some(vector3::axis(2)) } else { unit(self.axis.into()) };
@@ -54,7 +62,7 @@ impl Sector {
 
     /// `true` of a sector that is shifted, and has no axis.
     pub(super) fn is_shifted(&self) -> bool {
-        self.period.iter().any(|part| *part != 0.0)
+        self.periods.iter().any(is_given)
     }
 
     /// The direction of the axis.
@@ -74,17 +82,32 @@ impl Sector {
     /// The motion to the next sector, in words.
     pub(super) fn step_in_words(&self) -> String {
         match self.is_shifted() {
-            true => "shifted by the period".into(),
+            true => "shifted by a period".into(),
             false => format!("turned by one of {} sectors", self.count),
         }
     }
 
-    /// The motion of an image some sectors on.
-    pub(super) fn motion(&self, by: i32) -> Motion {
-        if self.is_shifted() {
-            return Motion::shift(f64::from(by) * Vector3::from(self.period));
-        }
-        let angle = f64::from(by) * TAU / self.count as f64;
-        Motion::about(self.point.into(), turn_about(self.axis(), angle))
+    /// `true` if it is another one but for rounding, on bodies within so much of the origin.
+    pub(super) fn is(&self, other: &Sector, size: f64) -> bool {
+        let [own, others] = [self, other].map(Sector::steps);
+        own.len() == others.len()
+            && own.iter().zip(&others).all(|([own, _], [other, _])| own.is(other, size))
     }
+
+    /// The motions to the next sector and back, for each of the ways that there are.
+    pub(super) fn steps(&self) -> Vec<[Motion; 2]> {
+        if self.is_shifted() {
+            let periods = self.periods.map(Vector3::from).into_iter();
+            let there = periods.filter(|period| period.amax() > 0.0);
+            return there.map(|period| [period, -period].map(Motion::shift)).collect();
+        }
+        let angle = TAU / self.count as f64;
+        let turned = |angle| Motion::about(self.point.into(), turn_about(self.axis(), angle));
+        vec![[angle, -angle].map(turned)]
+    }
+}
+
+/// `true` of a period that was not left out.
+fn is_given(period: &[f64; 3]) -> bool {
+    period.iter().any(|part| *part != 0.0)
 }

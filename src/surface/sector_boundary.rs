@@ -1,10 +1,11 @@
-//! The two boundaries of a sector, of which the second is the image of the first.
+//! The boundaries of a sector, of which the second is the image of the first.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::candidates::SearchFaces;
 use super::images::Images;
 use super::mesh::Side;
+use super::motion::Motion;
 use super::plane::Plane;
 use super::sector::Sector;
 use super::sweep::Sweep;
@@ -12,13 +13,13 @@ use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3, vector};
 
-/// The nodes of a side on the second boundary, with those on the first whose images they are. Nodes on the axis are
-/// on neither.
+/// The nodes of a side on the second boundary, to which a motion leads, with those on the first whose images they are. Nodes on
+/// the axis are on neither.
 ///
 /// # Errors
 /// Two nodes at one place; what ends the watch.
 pub(super) fn second_boundary(
-    sector: &Sector,
+    motion: &Motion,
     side: &Side<'_>,
     watch: &mut Watch<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
@@ -26,7 +27,7 @@ pub(super) fn second_boundary(
     let place = |node: &usize| vector(&side.coordinates[side.dim * node..][..side.dim]);
     let places: Vec<Vector3> = nodes.iter().map(place).collect();
     let near = side.nearness() / side.scale;
-    let found = at_images(&places, |x| sector.motion(1).of(x), near, || watch.goes_on())?;
+    let found = at_images(&places, |x| motion.of(x), near, || watch.goes_on())?;
     let mut second = BTreeMap::new();
     for (place, same) in found.into_iter().enumerate() {
         if let [a, b, ..] = same[..] {
@@ -80,15 +81,15 @@ pub(super) fn check_boundaries(
     watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
-        images.on_second().flat_map(|(second, first)| [second, first]).collect();
+        images.on_second().iter().flat_map(|(second, first, _)| [*second, *first]).collect();
     let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, watch)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
     for node in inner {
-        for by in [1, -1] {
+        for motion in sector.steps().as_flattened() {
             watch.goes_on()?;
             let x = slave.position(node);
-            let image = slave.scale * sector.motion(by).of(x / slave.scale);
+            let image = slave.scale * motion.of(x / slave.scale);
             if (image - x).norm() <= near {
                 continue;
             }

@@ -126,17 +126,18 @@ fn check_boundary(
     starts: &[usize],
     zones: &[ContactZone<'_>],
 ) -> Result<(), String> {
-    if !joined.images.are_of_sector() {
-        return Ok(());
-    }
+    let Some(sector) = joined.images.sector() else { return Ok(()) };
     let points: Vec<Vector3> = joined.pairs.iter().map(|pair| pair.point.into()).collect();
     let Bounds { low, high } = Bounds::of(points.iter().copied());
     let near = ON_PLANE * (high - low).amax();
     let zone = |pair: usize| starts.partition_point(|start| *start <= pair) - 1;
-    let to_second = joined.images.to_second();
-    let found = at_images(&points, |x| to_second.of(x), near, || Ok::<(), String>(()))?;
-    for (pair, same) in found.into_iter().enumerate() {
-        let normal = to_second.turn * Vector3::from(joined.pairs[pair].normal);
+    let mut found = Vec::new();
+    for [ahead, _] in sector.steps() {
+        let same = at_images(&points, |x| ahead.of(x), near, || Ok::<(), String>(()))?;
+        found.extend(same.into_iter().enumerate().map(|(pair, same)| (pair, same, ahead)));
+    }
+    for (pair, same, motion) in found {
+        let normal = motion.turn * Vector3::from(joined.pairs[pair].normal);
         let is_half = |other: &&usize| {
             let others = Vector3::from(joined.pairs[**other].normal);
             zone(**other) != zone(pair) && normal.dot(&others) > SAME_WAY

@@ -239,10 +239,31 @@ class Sectors(unittest.TestCase):
         for ours, theirs in zip(*found):
             # Rounding of places and of the solution.
             np.testing.assert_allclose(ours, theirs, atol=1e-12)
-        with self.assertRaisesRegex(ValueError, "no node is the image of another, shifted by the way of the Period"):
+        with self.assertRaisesRegex(ValueError, r"no node is the image of another, shifted by \[0\.9 0\.3\], a way of the Period"):
             signorini.sector_equations(self.strip(0)[0], signorini.Period((0.9, 0.3)))
         with self.assertRaisesRegex(ValueError, "way has the shape"):
             signorini.pair_surfaces(*self.strip(0)[:1], *self.strip(0)[1], sector=signorini.Period((1.0, 0.3, 0.0)))
+
+    def test_two_periods(self):
+        """Of a part that repeats along two lines each pair has the area of a cell, and each node is the first of its images."""
+        way, other = np.array([3.0, 0.6, 0.3]), np.array([-0.4, 2.0, 0.0])
+        steps = np.array([(i, j) for j in range(3) for i in range(4)])
+        places = steps @ np.array([way / 3, other / 2])
+        faces = [[i + 4 * j, i + 4 * j + 4, i + 4 * j + 5, i + 4 * j + 1] for j in range(2) for i in range(3)]
+        outward = np.cross(way, other)
+        sector = signorini.Period(way, other)
+        contact = signorini.pair_obstacle(places, faces, signorini.Plane((0, 0, 0), outward), sector=sector)
+        np.testing.assert_allclose(contact.areas, np.linalg.norm(outward) / 6, rtol=1e-14)
+        self.assertEqual(sorted(contact.nodes), [0, 1, 2, 4, 5, 6])
+        equations = signorini.sector_equations(places, sector)
+        expected = {3 * node + axis: 3 * (i % 3 + 4 * (j % 2)) + axis
+                    for node, (i, j) in enumerate(steps) if i == 3 or j == 2 for axis in range(3)}
+        found = {of: dofs[np.flatnonzero(turn)] for of, dofs, turn in equations}
+        self.assertEqual({of: own.tolist() for of, own in found.items()}, {of: [own] for of, own in expected.items()})
+        with self.assertRaisesRegex(signorini.SignoriniError, "its two periods are along one line"):
+            signorini.pair_obstacle(places, faces, signorini.Plane((0, 0, 0), outward), sector=signorini.Period(way, 2 * way))
+        with self.assertRaisesRegex(ValueError, "second has the shape"):
+            signorini.sector_equations(places, signorini.Period(way, (1.0, 0.0)))
 
     def test_nodes_on_the_axis_stay_there(self):
         axis = np.array([1.0, 2, 2]) / 3

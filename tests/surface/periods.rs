@@ -1,18 +1,19 @@
-//! A part of a body that repeats along a line has the rows that a part in the middle of many has.
+//! A part of a body that repeats along a line, or along two, has the rows that a part in the middle of many has.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::f64::consts::TAU;
 
 use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets};
 use fastrand::Rng;
 use signorini::surface::{Pairing, Sector, SurfacePair, SurfacePairs, SurfaceSettings};
 
-/// Places in numbers of periods, of a strip, and heights; the period and the strip are skewed, and waves go along.
+/// Places in numbers of periods, and heights; the periods are skewed, and waves go along both.
 fn place([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [x, y + 0.2 * x, z + 0.1 * x + 0.02 * (TAU * x).sin()]
+    [x + 0.15 * y, y + 0.2 * x, z + 0.1 * x + 0.02 * (TAU * x).sin() + 0.01 * (TAU * y).cos()]
 }
 
-const PERIOD: [f64; 3] = [1.0, 0.2, 0.1];
+const PERIODS: [[f64; 3]; 2] = [[1.0, 0.2, 0.1], [0.15, 1.0, 0.0]];
+const NONE: [f64; 3] = [0.0; 3];
 
 /// Copies on each side of the part. Rows depend on nodes up to five faces away, and the part has four.
 const COPIES: i32 = 2;
@@ -20,13 +21,13 @@ const COPIES: i32 = 2;
 /// A number of a node that all of its images have: that of its place in the part, of the slave's side or the master's.
 type Key = (bool, i64, i64);
 
-fn key(is_master: bool, [x, y, _]: [f64; 3], x_of: impl Fn(f64) -> f64) -> Key {
+fn key(is_master: bool, [x, y]: [f64; 2]) -> Key {
     // Places are thousandths and more apart.
     let rounded = |x: f64| (1e6 * x).round() as i64;
-    (is_master, rounded(x_of(x)), rounded(y))
+    (is_master, rounded(x), rounded(y))
 }
 
-/// The part, and many of it. Sides are open at the ends of the strip, and the master begins elsewhere along it.
+/// The part, and many of it, along one line or two. Along one sides are open at the ends of a strip. The master begins elsewhere.
 struct Bodies {
     part: TwoSheets,
     many: TwoSheets,
@@ -36,23 +37,27 @@ struct Bodies {
     among: Vec<usize>,
 }
 
-fn bodies(shape: Shape, rng: &mut Rng) -> Bodies {
-    let slave = Sheet::rectangle(shape, [4, 3], [[0.0, 1.0], [0.0, 2.0]], (0.2, rng));
-    let master = Sheet::rectangle(shape, [3, 3], [[0.3, 1.3], [0.2, 1.7]], (0.2, rng));
+fn bodies(shape: Shape, ways: usize, rng: &mut Rng) -> Bodies {
+    let along = if ways == 2 { [[0.0, 1.0], [0.2, 1.2]] } else { [[0.0, 2.0], [0.2, 1.7]] };
+    let slave = Sheet::rectangle(shape, [4, 4], [[0.0, 1.0], along[0]], (0.2, rng));
+    let master = Sheet::rectangle(shape, [3, 3], [[0.3, 1.3], along[1]], (0.2, rng));
     let mut part = TwoSheets::new(3, slave.mapped(|x| [x[0], x[1], 0.01]).turned(), master);
     let slaves = part.nodes.iter().filter(|x| x[2] > 0.0).count();
     let mut many =
         TwoSheets { nodes: Vec::new(), slave: Vec::new(), master: Vec::new(), ..part.clone() };
     let mut keys = [Vec::new(), Vec::new()];
-    let modulo = |x: f64| (x + 1e-9).rem_euclid(1.0);
-    keys[0] = part.nodes.iter().enumerate().map(|(at, x)| key(at >= slaves, *x, modulo)).collect();
+    let modulo = |way: usize, x: f64| if way < ways { (x + 1e-9).rem_euclid(1.0) } else { x };
+    let of_part =
+        |(at, x): (usize, &[f64; 3])| key(at >= slaves, [modulo(0, x[0]), modulo(1, x[1])]);
+    keys[0] = part.nodes.iter().enumerate().map(of_part).collect();
     let (mut known, mut among) = (HashMap::new(), vec![0; part.nodes.len()]);
-    for copy in -COPIES..=COPIES {
+    let across = if ways == 2 { COPIES } else { 0 };
+    let copies = || (-across..=across).flat_map(|b| (-COPIES..=COPIES).map(move |a| (a, b)));
+    for copy in copies() {
         let mut numbers = Vec::new();
         for (at, [x, y, z]) in part.nodes.iter().copied().enumerate() {
-            let x = x + f64::from(copy);
-            let number =
-                *known.entry(key(at >= slaves, [x, y, z], |x| x)).or_insert(many.nodes.len());
+            let [x, y] = [x + f64::from(copy.0), y + f64::from(copy.1)];
+            let number = *known.entry(key(at >= slaves, [x, y])).or_insert(many.nodes.len());
             if number == many.nodes.len() {
                 many.nodes.push([x, y, z]);
                 keys[1].push(keys[0][at]);
@@ -64,7 +69,7 @@ fn bodies(shape: Shape, rng: &mut Rng) -> Bodies {
         };
         many.slave.extend(there(&part.slave));
         many.master.extend(there(&part.master));
-        if copy == 0 {
+        if copy == (0, 0) {
             among = numbers;
         }
     }
@@ -88,24 +93,23 @@ fn weights(found: &SurfacePairs, pair: &SurfacePair, keys: &[Key]) -> BTreeMap<(
 #[test]
 fn a_period_has_the_rows_of_many() {
     let mut rng = Rng::with_seed(11);
-    for shape in SHAPES {
+    for (shape, ways) in SHAPES.into_iter().flat_map(|shape| [(shape, 1), (shape, 2)]) {
         for pairing in [Pairing::DualMortar, Pairing::NodeToSurface] {
-            let Bodies { part, many, keys, among } = bodies(shape, &mut rng);
-            let sector = Some(Sector { period: PERIOD, ..Sector::default() });
+            let Bodies { part, many, keys, among } = bodies(shape, ways, &mut rng);
+            let periods = [PERIODS[0], if ways == 2 { PERIODS[1] } else { NONE }];
+            let sector = Some(Sector { periods, ..Sector::default() });
             let settings =
                 SurfaceSettings { pairing, search_distance: Some(0.5), ..Default::default() };
             let whole = many.pair(&settings).unwrap();
             let found = part.pair(&SurfaceSettings { sector, ..settings }).unwrap();
-            let context = format!("{shape:?}, {pairing:?}");
-            // Nodes of the second boundary have no pair of their own.
-            let is_first = |node: &usize| (part.nodes[*node][0] - 1.0).abs() > 1e-9;
-            let expected = whole.pairs.iter().filter(|pair| {
-                among
-                    .iter()
-                    .position(|node| *node == pair.slave)
-                    .is_some_and(|node| is_first(&node))
-            });
-            assert_eq!(found.pairs.len(), expected.count(), "{context}");
+            let context = format!("{shape:?}, {ways}, {pairing:?}");
+            // Of nodes that are images of each other one has the pair.
+            let of_part = |node: &usize| among.iter().position(|other| other == node);
+            let slaves = whole.pairs.iter().filter_map(|pair| of_part(&pair.slave));
+            let expected: BTreeSet<Key> = slaves.map(|node| keys[0][node]).collect();
+            let own: Vec<Key> = found.pairs.iter().map(|pair| keys[0][pair.slave]).collect();
+            assert_eq!(own.len(), expected.len(), "{context}");
+            assert_eq!(own.into_iter().collect::<BTreeSet<_>>(), expected, "{context}");
             for own in &found.pairs {
                 let at = whole.pairs.binary_search_by_key(&among[own.slave], |pair| pair.slave);
                 let other = &whole.pairs[at.unwrap_or_else(|_| panic!("{context}: {own:?}"))];
@@ -131,17 +135,21 @@ fn wrong_periods_are_refused() {
     };
     let [slave, master] = [0.01, 0.0].map(sheet);
     let flat = TwoSheets::new(3, slave.turned(), master);
-    let bent = bodies(Shape::Q4, &mut Rng::with_seed(12)).part;
-    for (part, period, words) in [
+    let bent = bodies(Shape::Q4, 1, &mut Rng::with_seed(12)).part;
+    let along = [1.0, 0.0, 0.0];
+    for (part, periods, words) in [
         (
             &flat,
-            [0.875, 0.0, 0.0],
-            "image of slave node 0, shifted by the period, lies on slave face",
+            [[0.875, 0.0, 0.0], NONE],
+            "image of slave node 0, shifted by a period, lies on slave face",
         ),
-        (&bent, [0.875, 0.175, 0.0875], "and the number of sectors, or the period"),
-        (&flat, [f64::NAN, 0.0, 0.0], "its period NaN, 0, 0 is no way"),
+        (&flat, [along, [0.0, 1.75, 0.0]], "shifted by a period, lies on slave face"),
+        (&bent, [[0.875, 0.175, 0.0875], NONE], "and the number of sectors, or the period"),
+        (&flat, [[f64::NAN, 0.0, 0.0], NONE], "its period NaN, 0, 0 is no way"),
+        (&flat, [along, [0.0, f64::INFINITY, 0.0]], "its period 0, inf, 0 is no way"),
+        (&flat, [along, [-2.0, 0.0, 0.0]], "its two periods are along one line"),
     ] {
-        let sector = Some(Sector { period, ..Sector::default() });
+        let sector = Some(Sector { periods, ..Sector::default() });
         let settings = SurfaceSettings { sector, ..Default::default() };
         let error = part.pair(&settings).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");

@@ -1,4 +1,4 @@
-"""A sector of a body that repeats about an axis or along a line: its boundaries, and the equations of their nodes."""
+"""A sector of a body that repeats about an axis or along lines: its boundaries, and the equations of their nodes."""
 
 from collections import namedtuple
 from itertools import product
@@ -20,11 +20,11 @@ boundary is the first one turned about it, right-handed; its displacements are t
 sector_equations gives them.
 """
 
-Period = namedtuple("Period", "way")
-Period.__doc__ = """A part of a body that repeats along a line without end, in the place of a Sector.
+Period = namedtuple("Period", "way second", defaults=[None])
+Period.__doc__ = """A part of a body that repeats along a line without end, or along two, in the place of a Sector.
 
 way: from the first boundary of the part to the second, (D,). Displacements of both are the same, as sector_equations
-gives them.
+gives them.  second: the same along the second line; None: there is none.
 """
 
 
@@ -40,20 +40,27 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
     count, dim = coordinates.shape
     dofs = np.arange(dim * count).reshape(count, dim) if dofs is None else nodal_dofs("dofs", dofs)
     sector = checked(sector)
-    images, on_axis = _boundaries(coordinates, sector, bodies)
     first_of = {}
-    for node, same in images:
-        if len(same) > 1:
-            raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, which "
-                             "tells them apart")
-        if node not in first_of:  # of two sectors, each boundary is the image of the other
-            first_of[same[0]] = node
-    if not first_of:
-        moved = "shifted by the way of the Period" if isinstance(sector, Period) else (
-            f"turned by one of {sector.count} sectors about the axis")
-        raise ValueError(f"no node is the image of another, {moved}: nodes of the two boundaries must match")
+    motions = _motions(sector, dim)
+    for motion in motions:
+        images, on_axis = _boundaries(coordinates, motion, bodies)
+        seconds = {}
+        for node, same in images:
+            if len(same) > 1:
+                raise ValueError(f"the image of node {node} is at the place of nodes {same[0]} and {same[1]}: give bodies, "
+                                 "which tells them apart")
+            if node not in seconds:  # of two sectors, each boundary is the image of the other
+                seconds[same[0]] = node
+        if not seconds:
+            moved = f"shifted by {motion[2]}, a way of the Period" if isinstance(sector, Period) else (
+                f"turned by one of {sector.count} sectors about the axis")
+            raise ValueError(f"no node is the image of another, {moved}: nodes of the two boundaries must match")
+        first_of = {**seconds, **first_of}
     second, first = list(first_of), list(first_of.values())
-    found = turned_equations(dofs[second], dofs[first], _motion(sector, dim)[0])
+    # At a corner of two ways the image of an image has the pair.
+    for _ in motions[1:]:
+        first = [first_of.get(node, node) for node in first]
+    found = turned_equations(dofs[second], dofs[first], motions[0][0])
     if not on_axis:
         return found
     # A turn leaves the part along the axis.
@@ -79,9 +86,11 @@ def checked(sector):
 
 
 def without_cuts(faces, coordinates, sector):
-    """The faces of a skin but for those in the two boundaries, which are no surface of the whole."""
-    images, on_axis = _boundaries(coordinates, sector, None)
-    boundaries = [{node for node, _ in images}.union(on_axis), set(on_axis).union(*(same for _, same in images))]
+    """The faces of a skin but for those in its boundaries, which are no surface of the whole."""
+    boundaries = []
+    for motion in _motions(sector, coordinates.shape[1]):
+        images, on_axis = _boundaries(coordinates, motion, None)
+        boundaries += [{node for node, _ in images}.union(on_axis), set(on_axis).union(*(same for _, same in images))]
     return [face for face in faces if not any(nodes.issuperset(face) for nodes in boundaries)]
 
 
@@ -92,26 +101,27 @@ def _axis(sector, dim):
     return axis / np.linalg.norm(axis)
 
 
-def period_of(sector, dim):
-    """The way of a Period."""
-    return fit("way", sector.way, [(dim,)], f"a way, shape {(dim,)}")
+def ways_of(period, dim):
+    """The ways of a Period."""
+    given = {"way": period.way} if period.second is None else period._asdict()
+    return [fit(name, way, [(dim,)], f"a way, shape {(dim,)}") for name, way in given.items()]
 
 
-def _motion(sector, dim):
-    """The motion from the first boundary to the second, x -> turn @ (x - point) + shift + point: turn, point, shift."""
+def _motions(sector, dim):
+    """Those from a first boundary to a second, x -> turn @ (x - point) + shift + point: turn, point, shift."""
     if isinstance(sector, Period):
-        return np.eye(dim), np.zeros(dim), period_of(sector, dim)
+        return [(np.eye(dim), np.zeros(dim), way) for way in ways_of(sector, dim)]
     # The turn by the formula of Rodrigues.
     angle, (x, y, z) = 2 * np.pi / sector.count, _axis(sector, dim)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     turn = (np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)[:dim, :dim]
-    return turn, fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}"), np.zeros(dim)
+    return [(turn, fit("point", sector.point, [(dim,)], f"a place, shape {(dim,)}"), np.zeros(dim))]
 
 
-def _boundaries(coordinates, sector, bodies):
-    """Nodes on the first boundary, each with those of its body at its image on the second, and nodes on the axis."""
+def _boundaries(coordinates, motion, bodies):
+    """Nodes on a first boundary, each with those of its body at its image on the second, and nodes on the axis."""
     count, dim = coordinates.shape
-    turn, point, shift = _motion(sector, dim)
+    turn, point, shift = motion
     bodies = np.zeros(count) if bodies is None else fit("bodies", bodies, [(count,)], f"a number for each node, ({count},)")
     arms, near = coordinates - point, _NEAR * np.ptp(coordinates, axis=0).max()
     images = arms @ turn.T + shift

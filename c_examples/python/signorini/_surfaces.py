@@ -13,7 +13,7 @@ from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
-from ._sector import Period, checked, period_of
+from ._sector import Period, checked, ways_of
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
@@ -97,7 +97,7 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     it stands along it: [(0, 0.0), (1, 0.0)], or of a direction (D,) for a skewed one: [((-0.5, 0.87, 0), 0.0)].
     Pairs on one neither move nor carry a force across it.
     sector: the Sector that the mesh is of a body that repeats about an axis, or the Period of one that repeats along a
-    line; pairs are those of the whole.
+    line or two; pairs are those of the whole.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
     rims: slave nodes with less than half of their area over the master "fold" into the nearest
@@ -192,7 +192,8 @@ class SurfacePairs(Remade):
         settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
         self.is_sector = sector is not None
         if isinstance(sector, Period):
-            settings.period[:self.dim] = period_of(sector, self.dim)
+            for place, way in zip((settings.period, settings.second_period), ways_of(sector, self.dim)):
+                place[:self.dim] = way
         elif self.is_sector:
             sector = checked(sector)
             point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
