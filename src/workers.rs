@@ -127,9 +127,11 @@ pub fn pieces<T: Send, const N: usize>(
     if threads == 1 {
         return work(0, values);
     }
-    let length = values[0].len().div_ceil(threads).max(1);
+    // A thread that begins late takes fewer of them.
+    let count = 2 * threads;
+    let length = values[0].len().div_ceil(count).max(1);
     let mut left = values.map(|values| values.chunks_mut(length));
-    let pieces = (0..threads).map_while(|k| {
+    let pieces = (0..count).map_while(|k| {
         let piece = left.each_mut().map(|left| left.next().unwrap_or_default());
         (!piece[0].is_empty()).then_some((k, piece))
     });

@@ -173,46 +173,69 @@ fn cholesky_to_failure(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Resu
     })
 }
 
-/// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no.
+/// Columns of a matrix while it is factorised.
+enum Part<'a> {
+    /// Those of panels before.
+    Before,
+    /// The next panel, of which the order of rows is looked for.
+    Next(&'a mut RowOrder),
+    /// Those behind it.
+    After,
+}
+
+/// Overwrites a matrix with its factors `LU`, with row pivots; `None` where `goes_on` says no. One thread factorises the next panel
+/// while others are at the columns behind it.
 pub fn lu(mut matrix: MatMut<'_, f64>, goes_on: GoesOn<'_>) -> Option<RowOrder> {
     let (n, most) = (matrix.nrows(), width_of_blocks(matrix.nrows()));
-    let (mut order, mut exchanges): (Vec<usize>, usize) = ((0..n).collect(), 0);
-    let spec = faer::Spec::default();
-    let request =
-        partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, most.min(n), Par::Seq, spec);
+    let mut all = RowOrder { order: (0..n).collect(), odd: false };
+    let mut next = lu_of_panel(matrix.as_mut().subcols_mut(0, most.min(n)));
     for begin in (0..n).step_by(most) {
         if begin > 0 && !goes_on() {
             return None;
         }
         let (width, left) = (most.min(n - begin), n - begin);
-        let (mut from, mut back) = (vec![0; left], vec![0; left]);
-        let panel = matrix.as_mut().submatrix_mut(begin, begin, left, width);
-        let (info, _) = with_scratch(request, |stack| {
-            let par = Par::Seq;
-            partial_pivoting::factor::lu_in_place(panel, &mut from, &mut back, par, stack, spec)
-        });
-        exchanges += info.transposition_count;
         let moved: Vec<(usize, usize)> = (begin..n)
-            .zip(from.iter().map(|&from| begin + from))
+            .zip(next.order.iter().map(|&from| begin + from))
             .filter(|(to, from)| to != from)
             .collect();
-        exchange(&mut order, &moved);
-        let (before, all) = matrix.as_mut().split_at_col_mut(begin);
-        let (own, after) = all.split_at_col_mut(width);
+        exchange(&mut all.order, &moved);
+        all.odd ^= next.odd;
+        let (before, from) = matrix.as_mut().split_at_col_mut(begin);
+        let (own, after) = from.split_at_col_mut(width);
         let (root, below) = own.as_ref().get(begin.., ..).split_at_row(width);
-        let columns = blocks_of_columns(before, SIDE).map(|columns| (columns, false));
-        let columns = columns.chain(blocks_of_columns(after, SIDE).map(|columns| (columns, true)));
-        each(columns, (left * left * width) as f64, |(mut columns, is_after)| {
+        let (panel, after) = after.split_at_col_mut(most.min(left - width));
+        let panel = (panel.ncols() > 0).then_some((panel, Part::Next(&mut next)));
+        let after = blocks_of_columns(after, SIDE).map(|columns| (columns, Part::After));
+        let before = blocks_of_columns(before, SIDE).map(|columns| (columns, Part::Before));
+        let columns = panel.into_iter().chain(after).chain(before);
+        each(columns, (left * left * width) as f64, |(mut columns, part)| {
             columns_of(columns.as_mut()).for_each(|column| exchange(column, &moved));
-            if is_after {
-                let (_, all) = columns.split_at_row_mut(begin);
-                let (mut beside, rest) = all.split_at_row_mut(width);
-                solve_unit_lower_triangular_in_place(root, beside.as_mut(), Par::Seq);
-                matmul(rest, Accum::Add, below, beside.as_ref(), -1.0, Par::Seq);
+            if let Part::Before = part {
+                return;
+            }
+            let (_, all) = columns.split_at_row_mut(begin);
+            let (mut beside, mut rest) = all.split_at_row_mut(width);
+            solve_unit_lower_triangular_in_place(root, beside.as_mut(), Par::Seq);
+            matmul(rest.as_mut(), Accum::Add, below, beside.as_ref(), -1.0, Par::Seq);
+            if let Part::Next(order) = part {
+                *order = lu_of_panel(rest);
             }
         });
     }
-    Some(RowOrder { order, odd: exchanges % 2 == 1 })
+    Some(all)
+}
+
+/// Overwrites columns with their factors; the order of their rows.
+fn lu_of_panel(panel: MatMut<'_, f64>) -> RowOrder {
+    let ((rows, columns), spec) = (panel.shape(), faer::Spec::default());
+    let (mut order, mut back) = (vec![0; rows], vec![0; rows]);
+    let request =
+        partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(rows, columns, Par::Seq, spec);
+    let (info, _) = with_scratch(request, |stack| {
+        let par = Par::Seq;
+        partial_pivoting::factor::lu_in_place(panel, &mut order, &mut back, par, stack, spec)
+    });
+    RowOrder { order, odd: info.transposition_count % 2 == 1 }
 }
 
 /// Moves values all at once: each pair is the new place and the old one.
