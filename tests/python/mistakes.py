@@ -141,6 +141,40 @@ class Mistakes(unittest.TestCase):
             Model.from_meshes(springs(12), *meshes)
         self.assertEqual(Model.from_meshes((springs(12), springs(8)), *meshes).host_size, 20)
 
+    def test_matrices_of_equal_size_that_are_exchanged(self):
+        """Frames of bars in all sides and diagonals of a quadrilateral; a free frame resists no turn."""
+        def frame(x):
+            K = np.zeros((8, 8))
+            for a in range(4):
+                for b in range(a):
+                    along = (x[a] - x[b]) / np.linalg.norm(x[a] - x[b])
+                    bar = np.concatenate([dofs_of(a), dofs_of(b)])
+                    ends = np.concatenate([along, -along])
+                    K[np.ix_(bar, bar)] += np.outer(ends, ends)
+            return K
+
+        def dofs_of(node):
+            return np.array([2 * node, 2 * node + 1])
+
+        def sparse(K):
+            rows, columns = np.nonzero(K.T)[::-1]
+            return K[rows, columns], rows, np.searchsorted(columns, np.arange(9))
+        cells = {"quad": [[0, 1, 3, 2]]}
+        lower = np.array([[0, 0], [1, 0], [0, 1], [1, 1.0]])
+        upper = np.array([[0.1, 1], [0.8, 1], [0.2, 1.7], [0.9, 1.6]])
+        meshes, fixed = ((upper, cells), (lower, cells)), [0, 8, 9, 11]
+        stiff = [sparse(frame(x)) for x in (upper, lower)]
+        halves = [sparse(np.tril(frame(x))) for x in (upper, lower)]
+        for matrices, triangle in ((stiff, "full"), (halves, "lower")):
+            self.assertEqual(Model.from_meshes(tuple(matrices), *meshes, fixed=fixed, triangle=triangle).host_size, 16)
+            with self.assertRaisesRegex(ValueError, "the two matrices are exchanged: .* give that of the slave first"):
+                Model.from_meshes(tuple(matrices[::-1]), *meshes, fixed=fixed, triangle=triangle)
+        # A support of one body, as springs, or of both.
+        held = sparse(frame(lower) + np.eye(8))
+        self.assertEqual(Model.from_meshes((stiff[0], held), *meshes, fixed=[0]).host_size, 16)
+        with self.assertRaisesRegex(ValueError, "the two matrices are exchanged"):
+            Model.from_meshes((held, stiff[0]), *meshes)
+
     def test_a_plane_of_symmetry_that_is_not_named(self):
         springs, left = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6])
 

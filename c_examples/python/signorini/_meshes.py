@@ -7,6 +7,7 @@ from ._library import SignoriniError
 from ._mesh import TYPES, points
 from ._sector import checked, without_cuts
 from ._skin import corners, dimension, skin, turned
+from ._sparse import columns_of, resists_turns
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
 # Faces look the same way if the cosine between their normals is above this.
@@ -66,9 +67,9 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
         raise
 
 
-def check_sizes(sizes, slave, master):
-    """Refuses matrices of which so many columns are not those of the meshes; their nodes have dim degrees of freedom."""
-    meshes = [_Mesh("slave", slave)]
+def check_matrices(matrices, triangle, slave, master):
+    """Refuses matrices that are not those of the meshes, whose nodes have dim degrees of freedom."""
+    sizes, meshes = [columns_of(K) for K in matrices], [_Mesh("slave", slave)]
     if master is not slave and not isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         meshes.append(_Mesh("master", master))
     asked = [mesh.coordinates.size for mesh in meshes]
@@ -80,6 +81,12 @@ def check_sizes(sizes, slave, master):
         exchanged = "exchange them" if sizes == asked[::-1] else "give one for each mesh, that of the slave first"
         raise ValueError(f"the two matrices have {sizes[0]} and {sizes[1]} columns, the meshes of slave and master "
                          f"{' and '.join(map(str, asked))} degrees of freedom: {exchanged}")
+    if len(sizes) == 2 and sizes[0] == sizes[1]:
+        places = [mesh.coordinates for mesh in meshes]
+        for K, own, other in zip(matrices, places, places[::-1]):
+            if resists_turns(K, triangle, own) and not resists_turns(K, triangle, other):
+                raise ValueError("the two matrices are exchanged: one of them resists turns of its own mesh and none of the "
+                                 "other mesh; give that of the slave first")
 
 
 def _covered(coordinates, slave, master, pairing):

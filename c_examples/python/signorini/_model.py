@@ -14,10 +14,10 @@ from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
-from ._meshes import check_sizes, pair_meshes
+from ._meshes import check_matrices, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
-from ._sparse import ContactPairs, Matrix, columns_of, is_sparse, side_by_side, supports
+from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import warn_of_planes
@@ -289,7 +289,7 @@ class Model(Remade):
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
         parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
         if not {"dofs", "dofs_per_node"} & set(pairing):
-            check_sizes([columns_of(part) for part in parts], slave, master)
+            check_matrices(parts, triangle, slave, master)
         K = side_by_side(parts) if len(parts) == 2 else K
         return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle, **(settings or {}))
 

@@ -1,11 +1,15 @@
 """Sparse matrices, and the other arguments of Model.sparse: supports, contact pairs."""
 
+from itertools import combinations
+
 import numpy as np
 
 from ._arrays import at, doubles, fit, indices, integers, reals
 from ._constants import Triangle, chosen
 from ._equations import Equations
 from ._structures import Pairs, Sparse, sized
+
+_ROUNDING = 1e-6  # of coordinates with seven digits
 
 
 class Matrix:
@@ -144,6 +148,25 @@ def supports(fixed):
 def columns_of(K):
     """Number of columns of a sparse matrix."""
     return len(_compressed("K", K)[2]) - 1
+
+
+def resists_turns(K, triangle, places):
+    """Does a stiffness matrix resist small turns of its nodes, which are at these places, (n, D)?"""
+    data, rows, starts = _compressed("K", K)
+    columns = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    if chosen("triangle", Triangle, triangle) != Triangle.FULL:
+        off = rows != columns
+        data, rows, columns = (np.concatenate([own, other[off]]) for own, other in
+                               ((data, data), (rows, columns), (columns, rows)))
+    arms = places - places.mean(axis=0)
+    for a, b in combinations(range(arms.shape[1]), 2):
+        u = np.zeros_like(arms)
+        u[:, a], u[:, b] = -arms[:, b], arms[:, a]
+        products = data * u.ravel()[columns]
+        force, terms = (np.bincount(rows, parts, arms.size) for parts in (products, abs(products)))
+        if abs(force).max() > _ROUNDING * terms.max():
+            return True
+    return False
 
 
 def side_by_side(matrices):
