@@ -29,22 +29,6 @@ pub fn enough(n: usize) -> u64 {
     50 + 2 * n as u64
 }
 
-/// The result of block pivoting.
-pub struct Pivoted {
-    /// `x`.
-    pub x: Vec<f64>,
-    /// `q + M x`.
-    pub w: Vec<f64>,
-    /// Why it stopped.
-    pub ending: Ending,
-    /// Dense factorisations.
-    pub factorisations: u64,
-    /// Sign of the determinant of the last system.
-    orientation: i8,
-    /// As [`Candidate::definite`].
-    definite: Vec<bool>,
-}
-
 /// Solves frictionless contact from the active set of the start, or from all pairs closed; after `most`
 /// systems it gives up.
 pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
@@ -71,30 +55,28 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
         (holds, w)
     };
     let pivoted = solve(&lcp, settings.tolerance, start, most, &measure, monitor);
-    let effort = Effort::of_systems(pivoted.factorisations);
-    let d = opposite(&pivoted.x);
+    let d = opposite(pivoted.d());
     // The basis that was measured last is nearly always the one on which block pivoting ends.
-    let mut candidate = match measured.take().filter(|candidate: &Candidate| candidate.d() == d) {
-        Some(candidate) => candidate.ended(pivoted.ending).with_effort(effort),
-        None => {
-            let mut force = opposite(&pivoted.w);
-            contact.add_tension(&mut force);
-            Candidate::new(d, force, pivoted.ending, effort)
-        }
-    };
+    let measured = measured.take().filter(|candidate: &Candidate| candidate.d() == d);
+    let mut candidate = measured.unwrap_or_else(|| {
+        let mut force = opposite(pivoted.force());
+        contact.add_tension(&mut force);
+        Candidate::new(d, force, Ending::Done, Effort::default())
+    });
+    (candidate.ending, candidate.effort) = (pivoted.ending, pivoted.effort);
     (candidate.orientation, candidate.definite) = (pivoted.orientation, pivoted.definite);
     candidate
 }
 
 /// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds; after `most`
-/// systems it gives up. `magnitudes` are those of the LCP.
+/// systems it gives up. `magnitudes` are those of the LCP. The candidate has `x` for displacements and `w` for forces.
 pub fn lcp(
     lcp: &Lcp<'_>,
     magnitudes: &[f64],
     tolerance: f64,
     most: u64,
     monitor: &mut Monitor<'_>,
-) -> Pivoted {
+) -> Candidate {
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
         matrix: lcp.matrix,
@@ -113,6 +95,7 @@ pub fn lcp(
 /// Tells if variables are accurate enough, and their `w`.
 type Measure<'m> = dyn Fn(&[f64]) -> (bool, Vec<f64>) + 'm;
 
+/// As [`lcp`], of a bounded one.
 fn solve(
     lcp: &BoundedLcp<'_>,
     tolerance: f64,
@@ -120,7 +103,7 @@ fn solve(
     most: u64,
     measure: &Measure<'_>,
     monitor: &mut Monitor<'_>,
-) -> Pivoted {
+) -> Candidate {
     let equations = Equations::of_lcp(lcp);
     let mut systems = Systems::of(&equations);
     let before = systems.before(start.as_deref());
@@ -160,17 +143,17 @@ fn solve(
     };
     let (_, x, w) = best;
     let systems = iterate.systems;
-    let factorisations = systems.factorisations;
+    let mut found = Candidate::new(x, w, ending, Effort::of_systems(systems.factorisations));
     // Variables that are all at their bounds have the system of the identity.
     let is_factorised = basic.contains(&true);
-    let orientation = if is_factorised { systems.orientation() } else { 1 };
-    let definite = match ending {
+    found.orientation = if is_factorised { systems.orientation() } else { 1 };
+    found.definite = match found.ending {
         Ending::Done if is_factorised => systems.definite(&mut monitor.asking()),
         Ending::Done => basic.clone(),
         _ => Vec::new(),
     };
-    systems.leave(|| Before::of_variables(&basic, (&x, &w), lcp.q));
-    Pivoted { x, w, ending, factorisations, orientation, definite }
+    systems.leave(|| Before::of_variables(&basic, (found.d(), found.force()), lcp.q));
+    found
 }
 
 /// The active set, the variables and their `w` at which a solution begins: where the one before has ended, at the start, or

@@ -101,8 +101,8 @@ fn by_pivoting(
         let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
         let pivoted = block_pivoting::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
         // Written so that NaN stays NaN.
-        z = pivoted.x.iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
-        factorisations = pivoted.factorisations;
+        z = pivoted.d().iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
+        factorisations = pivoted.effort.factorisations;
         pivoted.ending
     };
     let mut solution = certified(problem, settings, Method::BlockPivoting, z, &ending);
