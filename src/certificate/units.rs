@@ -51,23 +51,14 @@ impl Proof {
 mod tests {
     use super::*;
     use crate::certificate::certify;
-    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::problem::{ContactProblem, FrictionLaw};
     use fastrand::Rng;
 
     /// Units and a certificate of a problem whose numbers are 2^-1000 and stiffnesses of 1.
     fn small() -> (Units, Certificate) {
         let load = [host(1.0), 0.0];
-        let problem = ContactProblem::new(ContactData {
-            dim: 2,
-            pairs: 1,
-            stiffness: &[1.0, 0.0, 0.0, 1.0],
-            ld: 2,
-            load: &load,
-            gap: &[f64::INFINITY],
-            law: FrictionLaw::Frictionless,
-            reference_slip: None,
-        });
-        let problem = problem.unwrap();
+        let of_pairs = (&[f64::INFINITY][..], FrictionLaw::Frictionless, None);
+        let problem = ContactProblem::of_test(2, (&[1.0, 0.0, 0.0, 1.0], &load), of_pairs);
         let units = Units::of(&problem).unwrap();
         assert_eq!((units.length.host(1.0), units.force.host(1.0)), (load[0], load[0]));
         (units, certify(&problem, &load))

@@ -50,6 +50,18 @@ impl<'a> ContactProblem<'a> {
         Ok(problem)
     }
 
+    /// The problem of a test with the stiffness and the loads of valid data; gaps, law and reference slips as there.
+    #[cfg(test)]
+    pub(crate) fn of_test(
+        dim: usize,
+        (stiffness, load): (&'a [f64], &'a [f64]),
+        (gap, law, reference_slip): (&'a [f64], FrictionLaw<'a>, Option<&'a [f64]>),
+    ) -> Self {
+        let (pairs, ld) = (gap.len(), load.len());
+        let data = ContactData { dim, pairs, stiffness, ld, load, gap, law, reference_slip };
+        Self::new(data).expect("valid data")
+    }
+
     /// A problem in 3D whose `K` need not be symmetric, as where a host's material or load follows the
     /// motion: `x . K x > 0` for all `x` is all that [`crate::Method::Path`] asks for. It is not checked.
     /// [`crate::Method::Newton`], `Path` and `Auto` solve it; nothing is proved about it.

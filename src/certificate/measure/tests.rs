@@ -1,24 +1,15 @@
 //! What a certificate says of rounding.
 
 use super::{Certificate, UNIT, certify};
-use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::problem::{ContactProblem, FrictionLaw};
 
 /// A problem of two pairs without obstacles, held to each other by springs of 1 along the normals, loaded in balance.
 fn of_two_pairs<T>(work: impl FnOnce(&ContactProblem<'_>) -> T) -> T {
     let mut k = [0.0; 16];
     (k[0], k[2], k[8], k[10]) = (1.0, -1.0, -1.0, 1.0);
     (k[5], k[15]) = (1.0, 1.0);
-    let data = ContactData {
-        dim: 2,
-        pairs: 2,
-        stiffness: &k,
-        ld: 4,
-        load: &[1.0, 0.0, -1.0, 0.0],
-        gap: &[f64::INFINITY; 2],
-        law: FrictionLaw::Frictionless,
-        reference_slip: None,
-    };
-    work(&ContactProblem::new(data).expect("valid data"))
+    let of_pairs = (&[f64::INFINITY; 2][..], FrictionLaw::Frictionless, None);
+    work(&ContactProblem::of_test(2, (&k, &[1.0, 0.0, -1.0, 0.0]), of_pairs))
 }
 
 /// A measure that meets a tolerance without its rounding alone is told as that tolerance, if it is not exactly 0; one that

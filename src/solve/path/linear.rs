@@ -191,7 +191,7 @@ fn ended(
 mod tests {
     use super::*;
     use crate::law::Contact;
-    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::problem::{ContactProblem, FrictionLaw};
     use crate::settings::Settings;
     use crate::solve::path::linear_start::Start;
 
@@ -204,27 +204,6 @@ mod tests {
             product + if i == j { least * n as f64 } else { 0.0 }
         };
         (0..n * n).map(|k| entry((k % n).max(k / n), (k % n).min(k / n))).collect()
-    }
-
-    /// A problem with Coulomb's law.
-    fn coulomb<'a>(
-        stiffness: &'a [f64],
-        load: &'a [f64],
-        gap: &'a [f64],
-        mu: &'a [f64],
-        slip: &'a [f64],
-    ) -> ContactProblem<'a> {
-        let problem = ContactProblem::new(ContactData {
-            dim: 2,
-            pairs: gap.len(),
-            stiffness,
-            ld: load.len(),
-            load,
-            gap,
-            law: FrictionLaw::Coulomb(mu),
-            reference_slip: Some(slip),
-        });
-        problem.expect("the data is valid")
     }
 
     /// Theorem H: the path from a sure start arrives, without the swept one and without a second try.
@@ -241,7 +220,8 @@ mod tests {
             let least = [1e-1, 1e-3][seed as usize % 2];
             let stiffness = definite(&mut rng, 2 * pairs, least);
             let mu: Vec<f64> = (0..pairs).map(|_| 10.0 * rng.f64()).collect();
-            let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
+            let of_pairs = (&gap[..], FrictionLaw::Coulomb(&mu), Some(&slip[..]));
+            let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
             let attempt = [Attempt { sweeps: 30, start: Start::Sure, events: 10.0 }];
@@ -278,7 +258,8 @@ mod tests {
             };
             let (load, gap, slip) = (vector(n, 1.0), vector(pairs, 0.3), vector(pairs, 0.3));
             let mu: Vec<f64> = vector(pairs, 3.0).iter().map(|mu| mu.abs()).collect();
-            let problem = coulomb(&stiffness, &load, &gap, &mu, &slip);
+            let of_pairs = (&gap[..], FrictionLaw::Coulomb(&mu), Some(&slip[..]));
+            let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
             let call = Call::new(&contact, &settings);

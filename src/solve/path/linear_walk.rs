@@ -230,7 +230,7 @@ fn factorised<'p>(
 mod tests {
     use super::*;
     use crate::law::Contact;
-    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::problem::{ContactProblem, FrictionLaw};
     use crate::settings::Settings;
 
     /// One pair with `K = [2 1; 1 1]` and `mu = 2`. The loads (1, 1.5) hold it stuck with the pressure 1 and the friction
@@ -240,17 +240,8 @@ mod tests {
     #[test]
     fn a_path_goes_on_below_its_start() {
         let (stiffness, load) = ([2.0, 1.0, 1.0, 1.0], [-1.0, 0.0]);
-        let problem = ContactProblem::new(ContactData {
-            dim: 2,
-            pairs: 1,
-            stiffness: &stiffness,
-            ld: 2,
-            load: &load,
-            gap: &[0.0],
-            law: FrictionLaw::Coulomb(&[2.0]),
-            reference_slip: None,
-        });
-        let problem = problem.expect("the data is valid");
+        let of_pairs = (&[0.0][..], FrictionLaw::Coulomb(&[2.0]), None);
+        let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
         let (contact, settings) = (Contact::new(&problem), Settings::default());
         let equations = Equations::of(&contact);
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);

@@ -261,7 +261,7 @@ fn ends_the_call(ending: &Ending) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+    use crate::problem::{ContactProblem, FrictionLaw};
     use crate::solve::result::Existence;
     use crate::solve::solve;
 
@@ -278,17 +278,9 @@ mod tests {
             [-2.0, 2.0, 0.0, -2.0, 4.0, 0.0],
             [0.0; 6],
         ];
-        let problem = ContactProblem::new(ContactData {
-            dim: 2,
-            pairs: 3,
-            stiffness: stiffness.as_flattened(),
-            ld: 6,
-            load: &[1.0, -3.0, 0.0, 1.0, 1.0, -1.0],
-            gap: &[0.0; 3],
-            law: FrictionLaw::Coulomb(&[2.0; 3]),
-            reference_slip: None,
-        })
-        .expect("the data are valid");
+        let load = [1.0, -3.0, 0.0, 1.0, 1.0, -1.0];
+        let of_pairs = (&[0.0; 3][..], FrictionLaw::Coulomb(&[2.0; 3]), None);
+        let problem = ContactProblem::of_test(2, (stiffness.as_flattened(), &load), of_pairs);
         let settings = Settings { proof: true, ..Settings::default() };
         let mut monitor = Monitor::new(&settings, None);
         let contact = Contact::new(&problem);

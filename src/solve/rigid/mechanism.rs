@@ -165,7 +165,7 @@ fn in_words<R: Relation>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::{ContactData, FrictionLaw};
+    use crate::problem::FrictionLaw;
     use crate::solve::solve;
 
     /// A body of two pairs that a spring ties along each direction and nothing holds, under whole-numbered loads.
@@ -176,17 +176,9 @@ mod tests {
             [-2.0, 0.0, 2.0, 0.0],
             [0.0, -8.0, 0.0, 8.0],
         ];
-        let data = ContactData {
-            dim: 2,
-            pairs: 2,
-            stiffness: k.as_flattened(),
-            ld: 4,
-            load: &[-1.0, 3.0, -5.0, 2.0],
-            gap: &[0.0; 2],
-            law: FrictionLaw::Coulomb(&[0.5; 2]),
-            reference_slip: None,
-        };
-        work(&ContactProblem::new(data).expect("valid data"))
+        let of_pairs = (&[0.0; 2][..], FrictionLaw::Coulomb(&[0.5; 2]), None);
+        let load = [-1.0, 3.0, -5.0, 2.0];
+        work(&ContactProblem::of_test(2, (k.as_flattened(), &load), of_pairs))
     }
 
     /// The escape along a motion `p` has the largest component 1, and is as fast as the loads drive it against the viscosity,

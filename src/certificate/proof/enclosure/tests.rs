@@ -7,7 +7,7 @@ use super::{
 use crate::law::{Contact, State};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector::largest_of;
-use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::problem::{ContactProblem, FrictionLaw};
 use fastrand::Rng;
 
 /// Systems of each kind.
@@ -68,17 +68,7 @@ fn on_pieces<T>(
     said: impl FnOnce(&System<'_>, &Centre) -> T,
 ) -> T {
     let (mu, gap) = (vec![mu; states.len()], vec![0.0; states.len()]);
-    let problem = ContactProblem::new(ContactData {
-        dim,
-        pairs: states.len(),
-        stiffness: k,
-        ld: d.len(),
-        load,
-        gap: &gap,
-        law: FrictionLaw::Coulomb(&mu),
-        reference_slip: None,
-    })
-    .unwrap();
+    let problem = ContactProblem::of_test(dim, (k, load), (&gap, FrictionLaw::Coulomb(&mu), None));
     let contact = Contact::new(&problem);
     let pieces = contact.each(&d, force).zip(states);
     let pairs =

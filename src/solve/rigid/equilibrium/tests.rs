@@ -3,7 +3,7 @@
 use super::{Balance, STOPPED, solved};
 use crate::law::Contact;
 use crate::linalg::gmres::extend_basis;
-use crate::problem::{ContactData, ContactProblem, FrictionLaw};
+use crate::problem::{ContactProblem, FrictionLaw};
 use crate::solve::result::Ending;
 use crate::solve::rigid::motions::RigidMotions;
 use fastrand::Rng;
@@ -16,17 +16,7 @@ fn body(law: FrictionLaw<'static>) -> ContactProblem<'static> {
         (k[7 * i], k[7 * j]) = (k[7 * i] + 1.0, k[7 * j] + 1.0);
         (k[6 * i + j], k[6 * j + i]) = (-1.0, -1.0);
     }
-    let data = ContactData {
-        dim: 2,
-        pairs: 3,
-        stiffness: k.leak(),
-        ld: 6,
-        load: &[0.0; 6],
-        gap: &[0.0; 3],
-        law,
-        reference_slip: None,
-    };
-    ContactProblem::new(data).expect("valid data")
+    ContactProblem::of_test(2, (k.leak(), &[0.0; 6]), (&[0.0; 3], law, None))
 }
 
 /// The motion by `by` of all pairs along the normals.
@@ -124,17 +114,9 @@ fn a_pair_that_nearly_rests_is_lifted_off_all_forces_of_its_cone() {
     let rng = &mut Rng::with_seed(1);
     for seed in 0..100 {
         let mu = [0.1, 0.5, 2.0][seed % 3];
-        let data = ContactData {
-            dim: 3,
-            pairs: 2,
-            stiffness: &k,
-            ld: 6,
-            load: &[0.0; 6],
-            gap: &[0.0; 2],
-            law: FrictionLaw::Coulomb(&[mu; 2]),
-            reference_slip: None,
-        };
-        let problem = ContactProblem::new(data).expect("valid data");
+        let mus = [mu; 2];
+        let of_pairs = (&[0.0; 2][..], FrictionLaw::Coulomb(&mus), None);
+        let problem = ContactProblem::of_test(3, (&k, &[0.0; 6]), of_pairs);
         let contact = Contact::new(&problem);
         let unit = |i: usize| (0..6).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
         let basis = (0..4).map(unit).collect();
