@@ -38,20 +38,3 @@ pub fn length(vector: &[f64]) -> f64 {
         _ => unreachable!("a pair has one or two tangential components"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::length;
-
-    /// Sides of 3 and 4 in units of every power of two, down to the smallest number.
-    #[test]
-    fn a_triangle_in_any_units() {
-        for power in -1074..=1021 {
-            // 2^power, also where it is subnormal.
-            let unit = 2.0_f64.powi(power.max(-1000)) * 2.0_f64.powi((power + 1000).min(0));
-            assert_eq!(length(&[3.0 * unit, -4.0 * unit]), 5.0 * unit, "{power}");
-        }
-        assert_eq!(length(&[0.0, 0.0]), 0.0);
-        assert!(length(&[f64::NAN, 1.0]).is_nan());
-    }
-}

@@ -46,16 +46,6 @@ impl PairLaw {
     }
 }
 
-/// Returns `true` if an obstacle can stop component `i`: the normal one of a pair that has one.
-pub fn is_bounded<R: Relation>(contact: &Contact<'_, R>, i: usize) -> bool {
-    i.is_multiple_of(contact.dim()) && contact.pairs()[i / contact.dim()].has_obstacle()
-}
-
-/// Returns `true` if component `i` is stopped by an obstacle at the displacements `d`.
-pub fn is_stopped<R: Relation>(contact: &Contact<'_, R>, i: usize, d: &[f64]) -> bool {
-    is_bounded(contact, i) && contact.pairs()[i / contact.dim()].touches(d[i])
-}
-
 /// Lower bounds of `x = -d` without friction: `-gap` of normal components, `-inf` of components that
 /// carry no contact force.
 pub fn lower_bounds<R: Relation>(contact: &Contact<'_, R>) -> Vec<f64> {

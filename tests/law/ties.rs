@@ -481,3 +481,34 @@ fn a_tie_lacks_its_distance_from_its_reference() {
         assert_eq!(tie.admissible_force(&force, State::Stick), force);
     }
 }
+
+/// A tie resists every motion, by `hypot(r_n, 3/2 |r_t|)` with the stiffnesses 4 and 9. It carries the force of 1 along each
+/// axis of its dimension and against it, and along no other axis.
+#[test]
+fn a_tie_resists_all_motions_and_carries_all_forces() {
+    for dim in [2, 3] {
+        let bound = Bound { slope: 0.5, offset: 0.0 };
+        let tie = PairLaw::new(dim, 0.0, [0.0; 2], bound, (4.0, 9.0)).with_tie();
+        for (motion, length) in [
+            ([3.0, 0.0, 0.0], 3.0),
+            ([-3.0, 0.0, 0.0], 3.0),
+            ([0.0, 4.0, 0.0], 6.0),
+            ([8.0, -4.0, 0.0], 10.0),
+            ([0.0, 2.0, 0.0], 3.0),
+        ] {
+            let approach = tie.recession(&motion[..dim]).approach;
+            // Three roundings of a number up to 10.
+            assert!((approach - length).abs() <= 1e-14, "{motion:?}: {approach}");
+        }
+        let mut edges = tie.cone_edges();
+        for c in 0..dim {
+            for along in [1.0, -1.0] {
+                let mut force = [0.0; 3];
+                force[c] = along;
+                let at = edges.iter().position(|&edge| edge == force).expect("an edge");
+                edges.swap_remove(at);
+            }
+        }
+        assert!(edges.is_empty(), "{dim}: {edges:?}");
+    }
+}
