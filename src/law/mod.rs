@@ -11,12 +11,11 @@
 //! | `natural_map` | how far a displacement and a force are from the law | certificate |
 //! | `normal_map` | `y -> (v, P)`, the chart on which the law is one function | pieces, Newton's method |
 //! | `piece` | which smooth piece of the normal map a point is on | all methods, uniqueness |
-//! | `piece_map` | the map on a piece that is given: push, derivative, boundaries | Newton's method, the path in space |
+//! | `piece_map` | the map on a piece that is given: push, derivative, boundaries; can a pair be held on it? | Newton's method, the path in space |
 //! | `planar_piece` | the boundaries between the pieces in the plane | the linear path |
 //! | `slopes`, `assembly` | a pair on its piece to first order, and the system of equations of all pairs | `solve::pieces`, proofs |
 //! | `proximal` | the step of one pair in a sweep | sweeps |
 //! | `complementarity` | the law as complementarity of non-negative variables | Lemke's method, block pivoting |
-//! | `fixed_state` | which states can be taken for decided, and how such a pair is held | `solve::newton` |
 //! | `enclosed_piece` | a pair on a piece that is given, with bounds on all that is computed of it | proofs that a solution exists |
 //! | `drawn` | points of the law at random | `solve::proximal` |
 //! | `reach` | which obstacles are too far away to matter | `solve::plan` |
@@ -44,7 +43,6 @@ mod contradiction;
 mod drawn;
 pub mod ellipse;
 mod enclosed_piece;
-mod fixed_state;
 mod friction;
 mod gauge;
 mod levelled;
@@ -69,7 +67,6 @@ pub use contradiction::{
 };
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use enclosed_piece::{EnclosedPiece, Local};
-pub use fixed_state::FixedState;
 pub use levelled::LevelledTangents;
 pub use natural_map::Violation;
 pub(crate) use natural_map::natural_sum;

@@ -22,6 +22,13 @@ impl PairLaw {
         self.bound.is_cone() && self.tension == 0.0 && !self.tied
     }
 
+    /// The piece, if its pair can be held on it while others are in question: open without a force, or sticking at its
+    /// reference ([`Self::reference`]). `None`: it slips, or carries a force when it is open.
+    pub fn decided(&self, piece: Piece) -> Option<Piece> {
+        let sticks = piece.tangential == Tangential::Stick;
+        Some(piece).filter(|_| if piece.closed { sticks } else { self.is_free_when_open() })
+    }
+
     /// The coordinates `y`, or, where the pair slips there against the direction in which it slipped at
     /// `before`, coordinates next to them at which it sticks: a slip that reverses passes through stick, and a
     /// method that leaves stick out may go to and fro for ever.

@@ -8,8 +8,8 @@ use fastrand::Rng;
 use signorini::law::Tangential;
 use signorini::law::complementarity::lower_bounds;
 use signorini::law::{
-    Bound, Contact, FixedState, Image, PairLaw, Rule, State, bounded, exceed_gaps,
-    friction_is_large, gaps_within_reach, length, touching,
+    Bound, Contact, Image, PairLaw, Piece, Rule, State, bounded, exceed_gaps, friction_is_large,
+    gaps_within_reach, length, touching,
 };
 use signorini::{ContactData, ContactProblem, FrictionLaw};
 
@@ -196,18 +196,18 @@ fn pairs_are_held_where_their_state_says_where() {
         let (v, p) = numbers.point(rng, 1e-6);
         let (d, force) = numbers.of_host(&v, &p);
         let law = numbers.law();
-        let held = law.fixed_state(law.piece(&law.trial(&d, &force)));
+        let held = law.decided(law.piece(&law.trial(&d, &force)));
         let open = p[0] == -numbers.tension;
         let slips = v[1..].iter().any(|slip| *slip != 0.0);
         let free = numbers.bound.offset == 0.0 && numbers.tension == 0.0;
         let acts = numbers.threshold(p[0]) > 0.0;
         let expected = match (open, slips) {
-            (true, _) => free.then_some(FixedState::Open),
-            (false, false) if acts => Some(FixedState::Stuck),
+            (true, _) => free.then_some(Piece::OPEN),
+            (false, false) if acts => Some(law.stick()),
             _ => None,
         };
         assert_eq!(held, expected, "{numbers:?} {v:?} {p:?}");
-        seen[held.map_or(0, |held| 1 + usize::from(held == FixedState::Open))] += 1;
+        seen[held.map_or(0, |held| 1 + usize::from(held == Piece::OPEN))] += 1;
     }
     assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
 }

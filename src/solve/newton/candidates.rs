@@ -21,7 +21,7 @@ use super::before::Kept;
 use super::ended::Ended;
 use super::iteration::OPEN;
 use super::start::swept;
-use crate::law::{FixedState, Vector};
+use crate::law::{Piece, Vector};
 use crate::monitor::{Monitor, Stop};
 use crate::problem::Remembered;
 use crate::solve::part::{ReducedProblem, closed_with_margin, many_are_open};
@@ -193,9 +193,9 @@ impl Search<'_, '_> {
         if self.is_series && kept.len() as f64 > TOO_MANY * needed.len() as f64 {
             *kept = needed;
         }
-        let mut states = vec![Some(FixedState::Open); y.len()];
-        kept.iter().for_each(|&pair| states[pair] = None);
-        ReducedProblem::new(whole, &states, monitor)
+        let mut held = vec![Some(Piece::OPEN); y.len()];
+        kept.iter().for_each(|&pair| held[pair] = None);
+        ReducedProblem::new(whole, &held, monitor)
     }
 }
 

@@ -23,7 +23,7 @@ pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as
 pub use ended::Ended;
 pub use iteration::{from_pieces, solve as newton_from};
 pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
-pub use uncertain_pairs::{PartOutcome, solve_part};
+pub use uncertain_pairs::solve_part;
 
 use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;

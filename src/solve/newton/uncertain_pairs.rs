@@ -7,8 +7,9 @@
 //! is one of the whole problem unless a pair that is held closes, slips or opens. Then that pair and its neighbours
 //! are in question too, and the problem is solved again from there: this ends, as pairs only join.
 
-use crate::law::{Contact, FixedState, PairLaw, Piece};
-use crate::monitor::{Monitor, Stop};
+use super::iteration::from_pieces;
+use crate::law::{Contact, PairLaw, Piece};
+use crate::monitor::Monitor;
 use crate::solve::part::{PairData, ReducedProblem};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Ending};
@@ -34,49 +35,49 @@ const ENOUGH: f64 = 1e-6;
 /// A solver of the pairs in question.
 pub type Core<'c> = dyn FnMut(&Call<'_>, &mut Monitor<'_>) -> Candidate + 'c;
 
-/// How the pairs in question ended.
-pub enum PartOutcome {
-    /// The pieces of a solution of the whole problem, and its displacements to some digits.
-    Settled(Vec<Piece>, Vec<f64>),
-    /// Too many pairs are in question, too few are decided, or the core has found no solution; how far the
-    /// displacements have come.
-    Lost(Vec<f64>),
-    /// A budget is used up, or the callback cancelled.
-    Stopped(Stop),
-}
-
-/// Solves a problem by `core` on the pairs in question. Returns the linear systems of `core` too.
+/// Solves a problem by `core` on the pairs in question. `Err`: too many pairs are in question, too few are decided, or the
+/// core has found no solution; how far the displacements have come.
 pub fn solve_part(
     call: &Call<'_>,
     monitor: &mut Monitor<'_>,
     core: &mut Core<'_>,
-) -> (PartOutcome, u64) {
+) -> Result<Candidate, Vec<f64>> {
     let (contact, settings) = (call.contact, call.settings);
     let (mut d, mut question) = InQuestion::after_sweeps(contact, &call.start_or_zero(), monitor);
     let (whole, mut systems) = (Equations::of(contact), 0);
     let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
-    while question.is_fewer_than(MOST) && monitor.iterations() <= last {
+    let stopped = loop {
+        if !question.is_fewer_than(MOST) || monitor.iterations() > last {
+            return Err(d);
+        }
         let reduced = match ReducedProblem::new(&whole, &question.held(contact), monitor) {
             Ok(Some(reduced)) => reduced,
-            Ok(None) => break,
-            Err(stop) => return (PartOutcome::Stopped(stop), systems),
+            Ok(None) => return Err(d),
+            Err(stop) => break Some(stop),
         };
         let own = PairData::of(contact.problem(), &reduced.kept().collect::<Vec<usize>>());
-        let Some(problem) = reduced.problem(contact.problem(), &own) else { break };
+        let Some(problem) = reduced.problem(contact.problem(), &own) else { return Err(d) };
         let part = Contact::new(&problem);
         let candidate = core(&Call::new(&part, settings).from(&reduced.restrict(&d)), monitor);
         systems += candidate.effort.factorisations;
         match candidate.ending {
-            Ending::Stopped(stop) => return (PartOutcome::Stopped(stop), systems),
-            Ending::Recession(_) => break,
-            _ if !candidate.is_settled(&part, settings.tolerance.max(ENOUGH)) => break,
+            Ending::Stopped(stop) => break Some(stop),
+            Ending::Recession(_) => return Err(d),
+            _ if !candidate.is_settled(&part, settings.tolerance.max(ENOUGH)) => return Err(d),
             _ => d = reduced.expand(candidate.d()),
         }
         if !question.join_contradicted(contact, &d) {
-            return (PartOutcome::Settled(question.pieces, d), systems);
+            break None;
         }
-    }
-    (PartOutcome::Lost(d), systems)
+    };
+    let mut found = match stopped {
+        Some(stop) => {
+            Candidate::of_displacements(contact, call.start_or_zero(), Ending::Stopped(stop))
+        }
+        None => from_pieces(&call.from(&d), &question.pieces, monitor),
+    };
+    found.effort.factorisations += systems;
+    Ok(found)
 }
 
 /// Which pairs are in question, and the pieces of all.
@@ -113,7 +114,7 @@ impl InQuestion {
             pieces = next;
         }
         for (is_in, (law, piece)) in pairs.iter_mut().zip(contact.pairs().iter().zip(&pieces)) {
-            *is_in |= law.fixed_state(*piece).is_none();
+            *is_in |= law.decided(*piece).is_none();
         }
         (d, InQuestion { pairs, pieces })
     }
@@ -124,12 +125,10 @@ impl InQuestion {
         count > 0 && count as f64 <= part * all as f64
     }
 
-    /// How each pair is held; `None` of those in question.
-    fn held(&self, contact: &Contact<'_>) -> Vec<Option<FixedState>> {
+    /// The piece on which each pair is held; `None` of those in question.
+    fn held(&self, contact: &Contact<'_>) -> Vec<Option<Piece>> {
         let pairs = contact.pairs().iter().zip(self.pairs.iter().zip(&self.pieces));
-        pairs
-            .map(|(law, (is_in, piece))| if *is_in { None } else { law.fixed_state(*piece) })
-            .collect()
+        pairs.map(|(law, (is_in, piece))| if *is_in { None } else { law.decided(*piece) }).collect()
     }
 
     /// Puts the pairs whose state the displacements `d` contradict, and those before and after them, in question;
@@ -138,7 +137,7 @@ impl InQuestion {
         let next = contact.pieces(d, &contact.problem().force(d));
         let laws = contact.pairs().iter().zip(self.pieces.iter().zip(&next));
         let is_other = |(law, (before, after)): (&PairLaw, (&Piece, &Piece))| {
-            law.fixed_state(*before) != law.fixed_state(*after)
+            law.decided(*before) != law.decided(*after)
         };
         let others: Vec<bool> = laws.map(is_other).collect();
         let joining: Vec<usize> =

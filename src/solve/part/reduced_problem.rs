@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::pair_data::PairData;
-use crate::law::{FixedState, Vector};
+use crate::law::{Piece, Vector};
 use crate::linalg::elimination::Elimination;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, Stiffness};
@@ -34,19 +34,19 @@ pub struct ReducedProblem<'w> {
 }
 
 impl<'w> ReducedProblem<'w> {
-    /// Keeps the pairs that no state is given for; `None` if that is not worthwhile, or if the matrix of the open ones
+    /// Keeps the pairs that are held on no piece; `None` if that is not worthwhile, or if the matrix of the open ones
     /// is not definite. `Err`: there is no time for it.
     pub fn new(
         whole: &'w Equations<'w>,
-        states: &[Option<FixedState>],
+        held: &[Option<Piece>],
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Stop> {
         let (mut stuck, mut open, mut kept) = (vec![0.0; whole.root.len()], Vec::new(), Vec::new());
-        for (pair, (state, law)) in states.iter().zip(whole.laws.iter()).enumerate() {
+        for (pair, (piece, law)) in held.iter().zip(whole.laws.iter()).enumerate() {
             let components = whole.dim * pair..whole.dim * (pair + 1);
-            match state {
-                Some(FixedState::Open) => open.extend(components),
-                Some(FixedState::Stuck) => {
+            match piece {
+                Some(piece) if !piece.closed => open.extend(components),
+                Some(_) => {
                     stuck[components].copy_from_slice(&law.reference()[..whole.dim]);
                 }
                 None => kept.extend(components),

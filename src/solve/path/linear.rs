@@ -90,7 +90,7 @@ use super::linear_walk::{LOST, Walk};
 use crate::counters::count;
 use crate::law::references;
 use crate::monitor::Monitor;
-use crate::solve::newton::{PartOutcome, from_pieces, solve_part};
+use crate::solve::newton::{from_pieces, solve_part};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid;
@@ -114,17 +114,7 @@ fn on_uncertain_pairs(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Cand
     let mut core = |part: &Call<'_>, monitor: &mut Monitor<'_>| {
         solve(part, &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..], monitor)
     };
-    let (ended, systems) = solve_part(call, monitor, &mut core);
-    let mut candidate = match ended {
-        PartOutcome::Settled(pieces, d) => from_pieces(&call.from(&d), &pieces, monitor),
-        PartOutcome::Stopped(stop) => {
-            let d = call.start_or_zero();
-            Candidate::of_displacements(call.contact, d, Ending::Stopped(stop))
-        }
-        PartOutcome::Lost(d) => return Err(d),
-    };
-    candidate.effort.factorisations += systems;
-    Ok(candidate)
+    solve_part(call, monitor, &mut core)
 }
 
 fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Candidate {
