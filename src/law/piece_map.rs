@@ -108,20 +108,17 @@ impl PairLaw {
 
     /// The pair on a piece at the coordinates `y`.
     pub fn linearised(&self, piece: Piece, y: &Vector) -> Linearised {
-        let mut pair = Linearised::of_piece(piece, self.k_n, self.k_t);
         let (_, threshold) = self.pressure_on(piece, y);
         let size = self.gauge(&y[1..self.dim]);
-        if !piece.slips() || size == 0.0 {
-            return pair;
-        }
         let (turned, along) = match self.dim {
+            _ if !piece.slips() || size == 0.0 => Default::default(),
             // In the plane a slip has no direction to turn in.
             2 => ([[0.0; 2]; 2], [y[1] / size, 0.0]),
             _ => self.slopes_on_bound([y[1], y[2]], threshold),
         };
         let slope = if piece.closed { self.bound.slope } else { 0.0 };
-        pair.set_slopes(turned, along.map(|along| slope * along));
-        pair
+        let slopes = (turned, along.map(|along| slope * along));
+        Linearised::of_piece(piece, [self.k_n, self.k_t], slopes)
     }
 
     /// The pair on a piece in the plane, where its derivative is the same everywhere.

@@ -58,23 +58,18 @@ impl Linearised {
         Linearised { closed, slips, slopes, scale: [unit, 0.0] }
     }
 
-    /// A pair on a piece on which its friction follows nothing, with its scales.
-    pub(super) fn of_piece(piece: Piece, normal: f64, tangential: f64) -> Self {
-        let motion = [[1.0, 0.0], [0.0, 1.0]];
-        let slopes = Slopes { motion, ..Slopes::default() };
-        let scale = [normal, tangential];
+    /// A pair on a piece with its scales, `T` and its drag; zero where its friction follows nothing.
+    pub(super) fn of_piece(
+        piece: Piece,
+        scale: [f64; 2],
+        (turned, drag): (Plane, [f64; 2]),
+    ) -> Self {
+        let mut motion = [[1.0, 0.0], [0.0, 1.0]];
+        let parts = motion.as_flattened_mut().iter_mut().zip(turned.as_flattened());
+        parts.for_each(|(motion, turned)| *motion -= turned);
+        let turn = turned.map(|row| row.map(|turned| turned * scale[1]));
+        let slopes = Slopes { drag, motion, turn };
         Linearised { closed: piece.closed, slips: piece.slips(), slopes, scale }
-    }
-
-    /// Gives the pair `T` and its drag.
-    pub(super) fn set_slopes(&mut self, turned: Plane, drag: [f64; 2]) {
-        self.slopes.drag = drag;
-        for (i, row) in turned.iter().enumerate() {
-            for (j, turned) in row.iter().enumerate() {
-                self.slopes.motion[i][j] -= turned;
-                self.slopes.turn[i][j] = turned * self.scale[1];
-            }
-        }
     }
 
     /// `k v` of the pair's part of a vector, which has one to three components.
