@@ -9,28 +9,14 @@
 //! ```
 //!
 //! with the pressure `p'` beside the tension that the pair may carry: that of equilibrium under
-//! [`Contact::load_with_tension`]. Without friction only the first line is left. In `x = -d_n` it is an LCP
+//! [`Contact::load_with_tension`]. A pair without an obstacle has no `w`, and one that has no friction either no `a` and
+//! `b`. Without friction only the first line is left. In `x = -d_n` it is an LCP
 //! with the lower bound `-gap`, and `w`, the variable that the bound is complementary to, is `p'`.
 
 use super::{Contact, PairLaw, Piece, Tangential};
 use crate::problem::Relation;
 
-/// Which variables a pair has in the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Variables {
-    /// The clearance `w`.
-    pub clearance: bool,
-    /// The slips `a` and `b`.
-    pub slips: bool,
-}
-
 impl PairLaw {
-    /// The variables of the pair: what has no obstacle and no friction is free.
-    pub fn variables(&self) -> Variables {
-        let clearance = self.has_obstacle();
-        Variables { clearance, slips: clearance || self.has_friction() }
-    }
-
     /// The piece on which the values of the pair's variables are; those that it has not are 0.
     pub fn piece_of_variables(&self, w: f64, a: f64, b: f64) -> Piece {
         let closed = self.has_obstacle() && w == 0.0;

@@ -22,6 +22,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::linalg::ball::Ball;
+
 /// A matrix of the two tangential components, by rows.
 pub type Plane<T = f64> = [[T; 2]; 2];
 
@@ -36,15 +38,9 @@ pub trait Real:
 {
 }
 
-impl<T> Real for T where
-    T: Copy
-        + Add<Output = T>
-        + Sub<Output = T>
-        + Mul<Output = T>
-        + Div<Output = T>
-        + Neg<Output = T>
-{
-}
+impl Real for f64 {}
+
+impl Real for Ball {}
 
 /// Along what a pair with a friction ellipse slips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -233,14 +233,11 @@ fn variables_name_the_branch_of_the_normal_map() {
     for _ in 0..POINTS {
         let law = Numbers::random_in(rng, 2);
         let (v, p) = law.point(rng, 1e-6);
-        let has = law.law().variables();
-        assert_eq!(has.clearance, law.has_obstacle());
         let most = if law.has_obstacle() { 1.0 } else { 0.0 };
         let friction = law.threshold(most - law.tension) > 0.0;
-        assert_eq!(has.slips, law.has_obstacle() || friction);
         // A pair without the variable has 0.
-        let clearance = if has.clearance { -v[0] } else { 0.0 };
-        let slip = if has.slips { v[1] } else { 0.0 };
+        let clearance = if law.has_obstacle() { -v[0] } else { 0.0 };
+        let slip = if law.has_obstacle() || friction { v[1] } else { 0.0 };
         let named = law.law().piece_of_variables(clearance, slip.max(0.0), (-slip).max(0.0));
         let piece = law.law().piece(&law.trial(&v, &p));
         assert_eq!(named, piece, "{law:?} at {v:?} {p:?}");

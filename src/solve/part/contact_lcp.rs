@@ -49,13 +49,13 @@ impl<'p> ContactLcp<'p> {
         let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());
         let mut coupling = Vec::new();
         for (pair, law) in contact.pairs().iter().enumerate() {
-            let variables = law.variables();
-            let slips = variables.slips && !is_frictionless;
+            let touches = law.has_obstacle();
+            let slips = (touches || law.has_friction()) && !is_frictionless;
             if slips {
                 let slope = law.bound().slope;
-                coupling.push(if variables.clearance { (normal.len(), slope) } else { (0, 0.0) });
+                coupling.push(if touches { (normal.len(), slope) } else { (0, 0.0) });
             }
-            if variables.clearance { &mut normal } else { &mut free }.push(dim * pair);
+            if touches { &mut normal } else { &mut free }.push(dim * pair);
             if slips { &mut tangential } else { &mut free }
                 .extend(dim * pair + 1..dim * (pair + 1));
         }
