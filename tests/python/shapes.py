@@ -43,6 +43,8 @@ class Refused(unittest.TestCase):
                      np.ones((2, 3)), 0.0, 0.3)
         self.refused(ValueError, "f is no array, its rows differ in length", solve, K,
                      [[1.0, 2.0], [1.0]], 0.0, 0.3)
+        self.refused(TypeError, "start is a Result: give one of its arrays, such as d", solve, K, LOAD, 0.0, 0.3,
+                     start=solve(K, LOAD, 0.0, 0.3))
 
     def test_numbers_of_the_pairs(self):
         solve = signorini.solve

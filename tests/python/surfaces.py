@@ -245,6 +245,9 @@ class Pairs(unittest.TestCase):
             (signorini.SignoriniError, "slave face 0 has node 1 twice", (NODES, [[1, 1]], MASTER), {}),
             (signorini.SignoriniError, "search_distance is -1", (NODES, SLAVE, MASTER),
              {"search_distance": -1}),
+            (TypeError, "search_distance is None: give a number", (NODES, SLAVE, MASTER), {"search_distance": None}),
+            (TypeError, "master is a Plane: .* pair_obstacle", (NODES, SLAVE, signorini.Plane((0, 0), (0, 1))), {}),
+            (TypeError, "slave is None: give the nodes", (NODES, None, MASTER), {}),
             (ValueError, r"symmetry\[0\] names axis 0.5: give 0 or 1, or a direction", (NODES, SLAVE, MASTER),
              {"symmetry": [(0.5, 0.0)]}),
             (ValueError, r"symmetry\[1\] names axis 2: give 0 or 1", (NODES, SLAVE, MASTER),
@@ -269,6 +272,11 @@ class Pairs(unittest.TestCase):
                 signorini.pair_surfaces(*arguments, **keywords)
         with self.assertRaisesRegex(TypeError, "contact is a list"):
             signorini.Model.from_surfaces((np.ones(2), np.arange(2), np.arange(3)), [])
+        contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
+        with self.assertRaisesRegex(TypeError, "result is a ndarray: give what Model.solve returned"):
+            contact.resultant(np.zeros(4))
+        with self.assertRaisesRegex(TypeError, "cells is None: give the nodes of the cells"):
+            signorini.write_mesh("nowhere.vtu", NODES, None)
 
 
 class Blocks(unittest.TestCase):

@@ -23,11 +23,11 @@ the library refuses is a SignoriniError. signorini.h is the reference; it also s
 of a report is.
 
 Settings are keywords of everything that solves: method and search (a member of Method, of Search,
-or its name in lower case), tolerance, omega, damping, max_iterations, time_limit, proof (true: prove
-that the solution exists, and where), and progress, a
-function of a Progress. It cancels the call by a true result, or by an exception (such as that of
-Ctrl-C), which goes on after the call. It must not call this module. Without a progress function,
-Ctrl-C waits for the end of the call.
+or its name in lower case), tolerance, omega, damping, max_iterations, time_limit (seconds),
+memory_limit (bytes), threads, proof (true: prove that the solution exists, and where), and
+progress, a function of a Progress. It cancels the call by a true result, or by an exception (such
+as that of Ctrl-C), which goes on after the call. It must not call this module. Without a progress
+function, Ctrl-C waits for the end of the call.
 
 From two meshes to pressures:
 

@@ -180,10 +180,21 @@ def dimension(dim, shape, size, gaps):
     return dim
 
 
+def number(name, value):
+    """A real number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}: give a number") from None
+
+
 def _array(name, values):
     try:
         return np.asarray(values)
     except ValueError as error:
+        if hasattr(values, "_fields"):  # such as a Result in the place of its d
+            raise TypeError(f"{name} is a {type(values).__name__}: give one of its arrays, such as "
+                            f"{values._fields[0]}") from None
         raise ValueError(f"{name} is no array, its rows differ in length: {error}") from None
 
 

@@ -24,6 +24,8 @@ class Cells:
 
     def __init__(self, coordinates, cells):
         self.coordinates = points(coordinates)
+        if cells is None:
+            raise TypeError("cells is None: give the nodes of the cells by their types, such as {'hexahedron': array}")
         blocks = cells.items() if hasattr(cells, "items") else [_block(block) for block in cells]
         types, starts, nodes = [], [np.zeros(1, np.int64)], []
         for name, block in blocks:

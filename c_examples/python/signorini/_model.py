@@ -123,8 +123,8 @@ class Model(Remade):
     def condensed(cls, K, *, dim=2, **settings):
         """One body on an obstacle. K: condensed stiffness, (N, N). H = N.
 
-        settings: progress, time_limit (seconds) and memory_limit (bytes); a limit that is passed, or a
-        progress function that cancels, raises SignoriniError.
+        settings: progress, time_limit (seconds), memory_limit (bytes) and threads; a limit that is
+        passed, or a progress function that cancels, raises SignoriniError.
         """
         K = stiffness("K", K)
         pairs = pairs_of("K", K, dim)
@@ -226,9 +226,9 @@ class Model(Remade):
         Pairs may name dependents; one that K has is eliminated, others have any number. See
         turned_equations, rigid_equations and read_equations.
         order: order of elimination, each dof number once; None: chosen.  settings: progress,
-        time_limit (seconds), memory_limit (bytes) and full_space; a limit that is passed, or a
-        progress function that cancels, raises SignoriniError. With full_space, or if the condensed
-        matrix needs more than memory_limit, none is formed: there is no stiffness then.
+        time_limit (seconds), memory_limit (bytes), threads and full_space; a limit that is passed,
+        or a progress function that cancels, raises SignoriniError. With full_space, or if the
+        condensed matrix needs more than memory_limit, none is formed: there is no stiffness then.
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows, equations)

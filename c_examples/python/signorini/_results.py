@@ -16,8 +16,8 @@ Progress.__doc__ = """Progress of a call, as its progress function is told.
 
 iterations: sweeps, pivots or linear systems done.  eta: the latest, infinite before the first.
 elapsed: seconds since the call began.
-reduced: share of the reduction of Model.sparse that is done, 0 to 1; 1 while a case is solved.
-memory: bytes that it needs in all, told before they are taken; 0 before they are known.
+reduced: share of a reduction, as of Model.sparse, or of a pairing that is done, 0 to 1; 1 while a case is solved.
+memory: bytes that the reduction needs in all, told before they are taken; otherwise 0.
 """
 
 _Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ._arrays import at, components, copied, doubles, fit, indices, integers, per_pair, reals
+from ._arrays import at, components, copied, doubles, fit, indices, integers, number, per_pair, reals
 from ._call import Call
 from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
 from ._equations import Equations
@@ -173,11 +173,12 @@ class SurfacePairs(Remade):
         self.coordinates = self._coordinates
         settings = sized(
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
-            search_distance=float(search_distance), dofs_per_node=dofs_per_node,
+            search_distance=number("search_distance", search_distance), dofs_per_node=dofs_per_node,
             normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
-            axisymmetric=bool(axisymmetric), time_limit=float(time_limit),
+            axisymmetric=bool(axisymmetric), time_limit=number("time_limit", time_limit),
         )
-        *shapes, settings.fitted, settings.close_within, settings.clearance = gaps
+        *shapes, settings.fitted, close_within, clearance = gaps
+        settings.close_within, settings.clearance = number("close_within", close_within), number("clearance", clearance)
         shapes = [shape and _shape(shape, self.dim) for shape in shapes]
         settings.slave_shape, settings.master_shape = (
             shape and ctypes.addressof(shape) for shape in shapes)
@@ -371,6 +372,8 @@ class SurfacePairs(Remade):
         Cells(of.coordinates, cells).write(path, u, [zone])
 
     def _results(self, result, slip0, gap):
+        if not hasattr(result, "d"):
+            raise TypeError(f"result is a {type(result).__name__}: give what Model.solve returned")
         pairs, dim = self.pairs, self.dim
         return (
             per_pair("gap", self.gaps if gap is None else gap, pairs, dim),
@@ -393,6 +396,9 @@ class _Faces:
     """Faces of a surface; structure: signorini_faces."""
 
     def __init__(self, name, faces):
+        if faces is None or hasattr(faces, "_fields"):
+            given = "None" if faces is None else f"a {type(faces).__name__}"
+            raise TypeError(f"{name} is {given}: give the nodes of each face; pair_obstacle takes an obstacle")
         if isinstance(faces, np.ndarray) and faces.ndim != 2:
             raise ValueError(f"{name} has the shape {faces.shape}: give the nodes of each face, "
                              f"shape (faces, nodes), or a list of lists")
@@ -457,7 +463,7 @@ def _shape(obstacle, dim):
         return sized(RigidObstacle, kind=Obstacle.TORUS, point=three(obstacle.centre),
                      direction=three(axis * (obstacle.ring / np.linalg.norm(axis))),
                      radius=obstacle.radius, hollow=bool(obstacle.hollow))
-    raise TypeError(f"{obstacle!r} is no shape: give a Plane, Sphere, Cylinder, Cone or Torus, or as an "
+    raise TypeError(f"a {type(obstacle).__name__} is no shape: give a Plane, Sphere, Cylinder, Cone or Torus, or as an "
                     f"obstacle RigidFaces")
 
 
