@@ -141,7 +141,7 @@ def main():
         told("  bolt = plates + pull, N", forces[-1], clamped + pull, 1e-6, "equilibrium")
     told("locked, force under the head, N", forces[0], PRETENSION, 1e-6, "the step before")
     taken, most = (forces[1] - forces[0]) / pulls[0], plates / (bolt + plates)
-    print(f"the bolt takes {taken:.3f} of a pull, {taken / most:.2f} of that under its head in VDI 2230, {most:.3f}")
+    print(f"the bolt takes {taken:.3f} of a pull, {taken / most:.2f} times the {most:.3f} that VDI 2230 has for one under its head")
     if not 0 < taken < most:
         raise SystemExit("a pull beside the head is taken by the plates in part")
     # Plates part from the outside in, and the force ratio grows before they are apart.

@@ -94,6 +94,6 @@ def dofs(nodes, *axes):
 def told(name, found, expected, within, source):
     """Prints a figure beside that of its source, and ends the program if they are further apart than `within`."""
     off = found / expected - 1
-    print(f"{name:44} {found:11.4g} {expected:11.4g} {100 * off:+8.2f} %   {source}")
+    print(f"{name:44} {found:11.4g} {expected:11.4g} {round(100 * off, 2) + 0.0:+8.2f} %   {source}")
     if not abs(off) <= within:
         raise SystemExit(f"{name}: off by {100 * off:.2f} %, more than {100 * within:.2f} %")

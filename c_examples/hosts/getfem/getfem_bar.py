@@ -16,8 +16,12 @@ import numpy as np
 sys.dont_write_bytecode = True  # what is built goes to target/
 # The package is in c_examples/python.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../python"))
-import getfem as gf  # noqa: E402
 import signorini  # noqa: E402
+
+try:
+    import getfem as gf
+except ImportError:
+    sys.exit("getfem_bar: this Python has no GetFEM: python3-getfem in Debian, for its own /usr/bin/python3")
 
 SIDE, COLUMNS, ROWS, RATIO = 40.0, 32, 5, 1.7  # mm; the mesh of bar_mesh.c
 YOUNG, POISSON = 13000.0, 0.2  # daN/mm2

@@ -91,7 +91,7 @@ def _surface(result, axes):
     drawn.set_zorder(1)
     axes.computed_zorder = False  # arrows and dots lie on the faces, not in them
     axes.add_collection3d(drawn)
-    axes.figure.colorbar(drawn, ax=axes, label="pressure, force / area", shrink=0.7)
+    axes.figure.colorbar(drawn, ax=axes, label="pressure, force / area", shrink=0.7, pad=0.12)
     _arrows(axes, contact, result)
     _legend(axes, result, contact.points)
     _frame(axes, contact.coordinates[np.unique(np.concatenate(faces))])
@@ -111,7 +111,7 @@ def _arrows(axes, contact, result):
 def _dots(result, axes, at):
     """In 3D without faces: normal forces as colours at given places."""
     drawn = axes.scatter(*at.T, c=-result.F[:, 0], cmap="viridis", depthshade=False)
-    axes.figure.colorbar(drawn, ax=axes, label="normal force, pressed", shrink=0.7)
+    axes.figure.colorbar(drawn, ax=axes, label="normal force, pressed", shrink=0.7, pad=0.12)
     _frame(axes, at)
 
 
