@@ -5,8 +5,7 @@
  * This is a host program of the kind that the library is for. It meshes and assembles the bar,
  * condenses it on its contact side (bar_mesh.c) and has the library find contact and friction:
  * `solve` below is all that it takes, or `solve_sparse` to leave condensation to the library. The
- * rest shows the results and checks them against what is
- * known about them (bar_check.c).
+ * rest shows the results and checks them against what is known about them (bar_check.c).
  *
  *     bar_on_plane [DIR]      with DIR, it also writes DIR/bar_on_plane.csv
  *

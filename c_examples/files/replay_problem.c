@@ -4,7 +4,7 @@
  *
  *     replay_problem FILE [METHOD [TOLERANCE]]
  *
- * METHOD is auto (the default), nested, diagonal, lemke, pivot or newton. It returns 0 if the
+ * METHOD is auto (the default), nested, diagonal, lemke, pivot, newton or path. It returns 0 if the
  * problem is solved, 1 if it is not, 2 if the file or the arguments are wrong, 130 after Ctrl-C.
  */
 
@@ -17,7 +17,8 @@
 
 enum { SOLVED, NOT_SOLVED, WRONG };
 
-static const char *const methods[] = {"auto", "nested", "diagonal", "lemke", "pivot", "newton"};
+static const char *const methods[] = {"auto", "nested", "diagonal", "lemke", "pivot", "newton",
+                                       "path"};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 static const char *method_name(int32_t method)

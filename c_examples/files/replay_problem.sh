@@ -3,7 +3,7 @@
 #
 #     sh c_examples/files/replay_problem.sh FILE [METHOD [TOLERANCE]]
 #
-# METHOD is auto (the default), nested, diagonal, lemke, pivot or newton. Builds the library,
+# METHOD is auto (the default), nested, diagonal, lemke, pivot, newton or path. Builds the library,
 # compiles the program against it (CC names the C compiler, default cc) and runs it. It ends with 0
 # if the problem is solved, 1 if it is not, 2 if the file is wrong. All that is built goes to
 # target/.

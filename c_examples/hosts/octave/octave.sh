@@ -4,7 +4,7 @@
 #     sh c_examples/hosts/octave/octave.sh [OUT]
 #
 # Needs mkoctfile and octave-cli (octave and octave-dev in Debian). signorini_solve.oct goes to OUT,
-# default target/; in Octave, addpath of that directory is all that it takes.
+# default target/c_examples/octave; in Octave, addpath of that directory is all that it takes.
 set -eu
 
 script=octave
