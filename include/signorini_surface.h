@@ -534,10 +534,11 @@ struct signorini_penetration {
 
 /**
  * Checks after a solution if parts of the slave's surface have passed through the master or the
- * obstacle: nothing holds what has no pair, such as faces beyond the search distance. Where pairs
- * hold, a tenth of a face's size is left to them. What overlaps before the motion has not passed
- * through by it, and is not counted: data.beyond has the faces that do, by more than was looked at.
- * A clearance of the settings stands between the surfaces here too.
+ * obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie over
+ * the master, and all of whose nodes have pairs, are left to these and not looked at; where some
+ * nodes of a face have pairs, these may pass by a tenth of its size. What overlaps before the
+ * motion has not passed through by it, and is not counted: data.beyond has the faces that do, by
+ * more than was looked at. A clearance of the settings stands between the surfaces here too.
  *
  * @param contact      the pairs of one zone, as they were made
  * @param u            displacements of all your degrees of freedom, as signorini_model_recover
@@ -586,7 +587,11 @@ struct signorini_zone {
 struct signorini_field {
     uint32_t struct_size; /**< sizeof(signorini_field). */
     int32_t components;   /**< 1: a number for each node; dim: a vector. */
-    const char *name;     /**< Its name in the file, UTF-8. */
+    /**
+     * Its name in the file, UTF-8; another one than those that the call writes by itself:
+     * displacement, pressure, traction, clearance, slip, state.
+     */
+    const char *name;
     const double *values; /**< The values, components for each node. */
 };
 

@@ -205,9 +205,10 @@ impl<'a> Monitor<'a> {
     pub(crate) fn reducing(&mut self, share: f64, memory: u64) -> Result<(), Error> {
         shortage::check();
         if self.memory_limit > 0 && memory > self.memory_limit {
-            let (needed, most) = (megabytes(memory), megabytes(self.memory_limit));
+            let (limit, needed) = (self.memory_limit, megabytes(memory));
+            let most = megabytes(limit);
             let message = format!(
-                "the reduction needs {needed:.1} MB, settings: memory_limit allows {most:.1} MB; \
+                "the reduction needs {needed:.1} MB, settings: memory_limit allows {limit} bytes ({most:.1} MB); \
                  nothing was factorised"
             );
             return Err(Error::stopped(Limit::Memory, message));

@@ -46,7 +46,8 @@ pub struct SignoriniField {
     pub struct_size: u32,
     /// 1: a number for each node; dim: a vector.
     pub components: i32,
-    /// Its name in the file, UTF-8.
+    /// Its name in the file, UTF-8; another one than those that the call writes by itself:
+    /// displacement, pressure, traction, clearance, slip, state.
     pub name: *const c_char,
     /// The values, components for each node.
     pub values: *const f64,

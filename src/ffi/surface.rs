@@ -101,6 +101,7 @@ impl SignoriniFaces {
 impl SignoriniObstacle {
     /// A shape that is no mesh.
     pub(super) fn shape(&self, at: At<'_>, dim: usize) -> Outcome<Obstacle> {
+        at.check_reserved(self.reserved)?;
         let in_dim = |mut v: [f64; 3]| {
             v[dim..].fill(0.0);
             v
@@ -134,6 +135,7 @@ impl SignoriniObstacle {
         dim: usize,
         base: i64,
     ) -> Outcome<(&'a [f64], [Vec<usize>; 2])> {
+        at.check_reserved(self.reserved)?;
         let nodes = at.field("nodes").size(self.nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
             return at.refuse_part(format!("nodes is {nodes}, too large"));

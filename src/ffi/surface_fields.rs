@@ -192,10 +192,11 @@ pub struct SignoriniPenetration {
 }
 
 /// Checks after a solution if parts of the slave's surface have passed through the master or the
-/// obstacle: nothing holds what has no pair, such as faces beyond the search distance. Where pairs
-/// hold, a tenth of a face's size is left to them. What overlaps before the motion has not passed
-/// through by it, and is not counted: data.beyond has the faces that do, by more than was looked at.
-/// A clearance of the settings stands between the surfaces here too.
+/// obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie over
+/// the master, and all of whose nodes have pairs, are left to these and not looked at; where some
+/// nodes of a face have pairs, these may pass by a tenth of its size. What overlaps before the
+/// motion has not passed through by it, and is not counted: data.beyond has the faces that do, by
+/// more than was looked at. A clearance of the settings stands between the surfaces here too.
 ///
 /// @param contact      the pairs of one zone, as they were made
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover

@@ -150,8 +150,10 @@ impl ContactPairs<'_> {
     fn check_master_start(&self) -> Result<(), Error> {
         let (start, count) = (self.master_start, self.count);
         if start[0] != 0 {
+            let nodes = if self.slaves.is_empty() { "nodes" } else { "masters" };
             return refuse(format!(
-                "pair {}: its masters begin at {}, they must begin with the first one",
+                "pair {}: its {nodes} begin at {}, they must begin with the first one: matrix and pairs count from \
+                 one number",
                 index(0),
                 index(start[0])
             ));

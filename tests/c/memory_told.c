@@ -41,6 +41,9 @@ static void limits(int64_t pairs)
     CHECK(bytes >= 8 * c.n * c.n);
     CHECK_STATUS(solve(&c, bytes), SIGNORINI_STATUS_SOLVED);
     c.d[0] = 77;
+    /* Megabytes in the place of bytes are seen. */
+    CHECK_STATUS(solve(&c, 8), SIGNORINI_STATUS_MEMORY_LIMIT);
+    CHECK_TEXT(signorini_last_error(), "memory_limit allows 8 bytes");
     CHECK_STATUS(solve(&c, bytes - 1), SIGNORINI_STATUS_MEMORY_LIMIT);
     CHECK(c.d[0] == 77);
     CHECK_TEXT(signorini_last_error(), "memory_limit allows");

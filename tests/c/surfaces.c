@@ -375,6 +375,9 @@ static void obstacles(void)
     disc.kind = 9;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &disc, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "there is no kind 9");
+    floor.reserved = 2;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &floor, NULL, &contact), -5);
+    CHECK_TEXT(signorini_last_error(), "obstacle: reserved is 2, it must be 0");
 }
 
 /* Two lines as facets of circles about one centre: the difference of the radii. */
@@ -480,6 +483,9 @@ static void rigid_faces(void)
     rigid.faces = NULL;
     CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
     CHECK_TEXT(signorini_last_error(), "obstacle: faces is NULL");
+    rigid.reserved = 2;
+    CHECK_STATUS(signorini_surface_pair_obstacle(2, 5, plane_nodes, &slave, &rigid, NULL, &contact), -5);
+    CHECK_TEXT(signorini_last_error(), "obstacle: reserved is 2, it must be 0");
 }
 
 /* Surfaces that never meet are no error, and the sentence says why. */

@@ -133,6 +133,10 @@ fn a_wrong_index_base_is_named() {
         |input| input.index_base = 1,
     );
     matrix("col_start[0] is 2, it must be index_base, which is 0", |input| input.col_start[0] = 2);
+    matrix("but nnz is 8: size, here 0, must be the number of degrees of freedom", |input| {
+        input.size = 0;
+        input.col_start = vec![0];
+    });
     matrix("index_base is 2, it must be 0 or 1", |input| input.index_base = 2);
     matrix("index_base is -1", |input| input.index_base = -1);
     // Rows alone.

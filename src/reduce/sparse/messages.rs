@@ -25,13 +25,14 @@ pub(super) fn col_start(matrix: &SparseMatrix<'_>, j: usize) -> String {
                 "{said}, but index_base is {base}: set index_base to {other}, or count from {base}"
             );
         }
-        return format!("{said}, it must be index_base, which is {base}");
-    }
-    let last = matrix.col_start.get(j - 1);
-    if value < last {
+        if value != base {
+            return format!("{said}, it must be index_base, which is {base}");
+        }
+    } else if value < matrix.col_start.get(j - 1) {
         return format!(
-            "{said}, less than {}, which is {last}: col_start must not descend",
-            entry("col_start", [j - 1])
+            "{said}, less than {}, which is {}: col_start must not descend",
+            entry("col_start", [j - 1]),
+            matrix.col_start.get(j - 1)
         );
     }
     if j == matrix.size {

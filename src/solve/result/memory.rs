@@ -17,13 +17,14 @@ const VECTORS_OF_WHOLE: f64 = 32.0;
 
 /// Refuses what needs more bytes than the settings allow.
 pub fn check_limit(needed: u64, settings: &Settings) -> Result<(), Error> {
-    let most = settings.memory_limit;
-    if most == 0 || needed <= most {
+    let limit = settings.memory_limit;
+    if limit == 0 || needed <= limit {
         return Ok(());
     }
-    let [needed, most] = [needed, most].map(|bytes| bytes as f64 / 1e6);
+    let [needed, most] = [needed, limit].map(|bytes| bytes as f64 / 1e6);
     let message = format!(
-        "the solution may need {needed:.1} MB, settings: memory_limit allows {most:.1} MB; nothing was done"
+        "the solution may need {needed:.1} MB, settings: memory_limit allows {limit} bytes ({most:.1} MB); \
+         nothing was done"
     );
     Err(Error::stopped(Limit::Memory, message))
 }
