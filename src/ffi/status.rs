@@ -105,6 +105,9 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
 
 const CAPACITY: usize = 512;
 
+/// What a sentence ends with that is cut.
+const CUT: &str = " ...";
+
 thread_local! {
     // The sentence as C counts, and as Fortran does. Fixed buffers: a pointer to one stays valid while a later call in
     // the same printf writes.
@@ -123,11 +126,20 @@ struct Sentence {
 impl Sentence {
     const EMPTY: Self = Sentence { text: [0; CAPACITY], used: 0 };
 
-    /// Text that does not fit is cut.
+    /// Text that does not fit is cut between words, so that no number loses its last digits, and ends with dots.
     fn set(&mut self, text: &str) {
-        let cut = (0..=text.len().min(CAPACITY - 1)).rev().find(|&i| text.is_char_boundary(i));
-        self.used = cut.unwrap_or(0);
-        self.text[..self.used].copy_from_slice(&text.as_bytes()[..self.used]);
+        let mut parts = [text, ""];
+        if text.len() >= CAPACITY {
+            let most = CAPACITY - 1 - CUT.len();
+            let ends = (0..=most).rev().filter(|&i| text.is_char_boundary(i));
+            let between_words = ends.clone().find(|&i| text[i..].starts_with(' '));
+            parts = [&text[..between_words.or_else(|| ends.max()).unwrap_or(0)], CUT];
+        }
+        self.used = 0;
+        for part in parts {
+            self.text[self.used..self.used + part.len()].copy_from_slice(part.as_bytes());
+            self.used += part.len();
+        }
         self.text[self.used] = 0;
     }
 }

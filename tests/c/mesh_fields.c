@@ -231,6 +231,19 @@ static void refusals(void)
     field = good;
     field.components = 3;
     refused(-7, "a has 3 components, it needs 1 or 2", &mesh, &field);
+    /* A sentence of 511 bytes is whole; a longer one is cut between words, and says so. */
+    char words[1000];
+    memset(words, 'w', sizeof words);
+    field.name = words;
+    words[511 - strlen("fields:  has 3 components, it needs 1 or 2")] = '\0';
+    refused(-7, "w has 3 components, it needs 1 or 2", &mesh, &field);
+    CHECK(strlen(signorini_last_error()) == 511);
+    strcat(words, "w");
+    refused(-7, "w has 3 components, it needs 1 ...", &mesh, &field);
+    CHECK(strlen(signorini_last_error()) <= 511);
+    words[strlen(words)] = 'w';
+    words[sizeof words - 1] = '\0';
+    refused(-7, "fields: ...", &mesh, &field);
     field = good;
     field.values = NULL;
     refused(-7, "values is NULL", &mesh, &field);

@@ -68,7 +68,8 @@ static void indices(void)
 
 static void matrices(void)
 {
-    REFUSED("one triangle stored, FULL said", -1, WORDS("K is not symmetric", "K[0,1] is 0"),
+    REFUSED("one triangle stored, FULL said", -1,
+            WORDS("K is not symmetric", "K[0,1] is 0", "if one triangle is stored, triangle must name it"),
             block.K.triangle = SIGNORINI_TRIANGLE_FULL);
     REFUSED("lower stored, UPPER said", -1, WORDS("not in the triangle"),
             block.K.triangle = SIGNORINI_TRIANGLE_UPPER);

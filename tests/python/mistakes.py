@@ -62,7 +62,7 @@ REFUSED = (
      lambda: model().recover_cases(np.zeros((3, 2, 2)))),
     ("one triangle to solve", ValueError, ["only its lower triangle", "K + K.T"],
      lambda: solve(np.tril(K), LOAD, 0)),
-    ("triangle not told", signorini.SignoriniError, ["K is not symmetric"],
+    ("triangle not told", signorini.SignoriniError, ["K is not symmetric", "if one triangle is stored, triangle must name it"],
      lambda: Model.sparse((np.ones(3), [0, 1, 1], [0, 2, 3]), [[0, 1]], DOWN, triangle="full")),
     ("tol", TypeError, ["tol is not a setting", "tolerance"],
      lambda: solve(K, LOAD, 0, tol=1e-9)),

@@ -61,6 +61,13 @@ class Flexibility(unittest.TestCase):
         again = signorini.solve_flexibility(self.W, self.q, mu=0.25, start=result.F)
         np.testing.assert_allclose(again.F, result.F, atol=1e-8)
 
+    def test_one_pair(self):
+        """It sticks where friction holds q / W: F = -q / W."""
+        for q in ([2.0, 0.5], [[2.0, 0.5]]):
+            result = signorini.solve_flexibility(np.eye(2) / 2, q, mu=0.3)
+            self.assertEqual(result.status, Status.SOLVED)
+            np.testing.assert_allclose(result.F, [[-4.0, -1.0]], atol=1e-12)
+
     def test_sparse(self):
         lower = ([0.5, -0.5, 0.5, 0.5, 0.5, 0.5], [0, 3, 1, 2, 2, 3], [0, 2, 4, 5, 6])
         result = signorini.solve_flexibility(lower, self.q, mu=0.25, triangle="lower")

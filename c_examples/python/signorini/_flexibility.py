@@ -20,6 +20,6 @@ def solve_flexibility(W, q, gap=0.0, mu=None, *, g=None, law=None, friction=None
     """
     W, q = flexibility(W, triangle), reals("q", q)
     dim = dimension(dim, q.shape, len(W), gap)
-    q = components("q", q, pairs_of("W", W, dim), dim)
+    q = components("q", q, pairs_of("W", W, dim), dim).ravel()  # (1, D) would be a case of one pair, not its q
     return Model.flexibility(W, dim=dim).solve(q, gap, mu, g=g, law=law, friction=friction, slip0=slip0,
                                                start=start, **settings)

@@ -100,8 +100,12 @@ pub(super) fn not_symmetric(
     let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
     let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
     let (lower, upper) = (entry(name, [i, j]), entry(name, [j, i]));
+    let stored = match [below, above].contains(&0.0) {
+        true => "; if one triangle is stored, triangle must name it",
+        false => "",
+    };
     let (below, above) = (number(below), number(above));
-    format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}")
+    format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}{stored}")
 }
 
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
