@@ -105,7 +105,7 @@ pub extern "C" fn signorini_status_string(status: i32) -> *const c_char {
 
 const CAPACITY: usize = 512;
 
-/// What a sentence ends with that is cut.
+/// The end of a sentence that is cut.
 const CUT: &str = " ...";
 
 thread_local! {
