@@ -184,6 +184,11 @@ impl ExactShape {
         }
     }
 
+    /// `true` of a shape that has an inside and is not hollow.
+    pub(super) fn is_solid(&self) -> bool {
+        self.sign > 0.0 && !matches!(self.form, Form::Plane { .. })
+    }
+
     /// The gap of a point, and the normal from the point into the obstacle; `None` where all normals
     /// are as good, on an axis or in a centre.
     pub(super) fn facing(&self, x: Vector3) -> (f64, Option<Vector3>) {

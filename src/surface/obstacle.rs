@@ -1,4 +1,4 @@
-//! Rigid obstacles with a shape: each slave node against the nearest point.
+//! Rigid obstacles with a shape: each slave node against the nearest point. In a sector shapes repeat as the body does.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,10 @@ use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::Side;
+use super::motion::Motion;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::Row;
+use super::sector::Sector;
 use super::self_overlap;
 use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
@@ -15,6 +17,48 @@ use super::unit::Unit;
 use super::watch::Watch;
 use super::with_images::WithImages;
 use crate::error::{Argument, Error, index};
+use crate::linalg::vector3::Vector3;
+
+/// A shape with its images in the neighbours of a sector.
+struct Repeated<'a> {
+    shape: &'a ExactShape,
+    /// The motions to the images, each with that back, in the host's unit.
+    steps: Vec<[Motion; 2]>,
+    scale: f64,
+}
+
+impl<'a> Repeated<'a> {
+    /// # Errors
+    /// The space in front of a plane, or inside of a hollow shape, that is not its own image: the images would cut it.
+    fn new(shape: &'a ExactShape, sector: Option<Sector>, side: &Side<'_>) -> Result<Self, Error> {
+        let there = sector.map_or(Vec::new(), |sector| sector.steps()).into_iter();
+        let steps = there.flat_map(|[ahead, back]| [[ahead, back], [back, ahead]]).collect();
+        let all = Repeated { shape, steps, scale: side.scale };
+        let differs = |step: &[Motion; 2], x: Vector3| {
+            (all.of_image(step, x).0 - shape.facing(x).0).abs() > side.nearness()
+        };
+        let is_cut = |node: usize| all.steps.iter().any(|step| differs(step, side.position(node)));
+        match !shape.is_solid() && side.all_nodes().into_iter().any(is_cut) {
+            true => refuse(
+                "it is not its own image in the next sector, and a plane or a hollow shape does not repeat: give faces",
+            ),
+            false => Ok(all),
+        }
+    }
+
+    /// The gap of a point and the normal into an image.
+    fn of_image(&self, [there, back]: &[Motion; 2], x: Vector3) -> (f64, Option<Vector3>) {
+        let (away, normal) = self.shape.facing(self.scale * back.of(x / self.scale));
+        (away, normal.map(|normal| there.turn * normal))
+    }
+
+    /// The gap of a point and the normal into the obstacle, of the nearest image.
+    fn facing(&self, x: Vector3) -> (f64, Option<Vector3>) {
+        let of_images = self.steps.iter().map(|step| self.of_image(step, x));
+        let nearer = |a: (f64, _), b: (f64, _)| if b.0 < a.0 { b } else { a };
+        of_images.fold(self.shape.facing(x), nearer)
+    }
+}
 
 fn refuse<T>(message: &str) -> Result<T, Error> {
     Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
@@ -61,6 +105,7 @@ fn facing(
     let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
     watch.expects(side.count());
     self_overlap::check(side, &mut SearchFaces::new(side, watch)?, reach, watch)?;
+    let obstacle = &Repeated::new(obstacle, settings.sector, side)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
         let (away, normal) = obstacle.facing(side.position(node));
@@ -82,7 +127,7 @@ fn facing(
     let pair = |node, row: Row| {
         let pair = pair_of_row([side; 2], on, (node, row), facing[&node].1);
         let slaves = pair.slaves().iter();
-        let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.size();
+        let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.shape.size();
         let gap = slaves.clone().map(|(node, weight)| weight * facing[node].0).sum();
         let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
@@ -93,7 +138,7 @@ fn facing(
 }
 
 /// Number of faces whose middles look away from a shape.
-fn looking_away(side: &Side<'_>, shape: &ExactShape) -> usize {
+fn looking_away(side: &Side<'_>, shape: &Repeated<'_>) -> usize {
     let looks_away = |at: &usize| {
         let (face, middle) = (side.face(*at), side.face(*at).kind.centre());
         let (_, normal) = shape.facing(face.position(middle));

@@ -94,12 +94,16 @@ impl Sector {
             && own.iter().zip(&others).all(|([own, _], [other, _])| own.is(other, size))
     }
 
-    /// The motions to the next sector and back, for each of the ways that there are.
+    /// The motions to the next sector and back, for each of the ways that there are, with two periods along both at once too:
+    /// a part may touch its image at a corner alone, or along a third line.
     pub(super) fn steps(&self) -> Vec<[Motion; 2]> {
         if self.is_shifted() {
-            let periods = self.periods.map(Vector3::from).into_iter();
-            let there = periods.filter(|period| period.amax() > 0.0);
-            return there.map(|period| [period, -period].map(Motion::shift)).collect();
+            let given = self.periods.map(Vector3::from);
+            let mut ways: Vec<Vector3> = given.into_iter().filter(|way| way.amax() > 0.0).collect();
+            if let [one, other] = ways[..] {
+                ways.extend([one + other, one - other]);
+            }
+            return ways.into_iter().map(|way| [way, -way].map(Motion::shift)).collect();
         }
         let angle = TAU / self.count as f64;
         let turned = |angle| Motion::about(self.point.into(), turn_about(self.axis(), angle));

@@ -260,10 +260,26 @@ class Sectors(unittest.TestCase):
                     for node, (i, j) in enumerate(steps) if i == 3 or j == 2 for axis in range(3)}
         found = {of: dofs[np.flatnonzero(turn)] for of, dofs, turn in equations}
         self.assertEqual({of: own.tolist() for of, own in found.items()}, {of: [own] for of, own in expected.items()})
-        with self.assertRaisesRegex(signorini.SignoriniError, "its two periods are along one line"):
+        with self.assertRaisesRegex(ValueError, "way and second of the Period are along one line"):
             signorini.pair_obstacle(places, faces, signorini.Plane((0, 0, 0), outward), sector=signorini.Period(way, 2 * way))
         with self.assertRaisesRegex(ValueError, "second has the shape"):
             signorini.sector_equations(places, signorini.Period(way, (1.0, 0.0)))
+        with self.assertRaisesRegex(ValueError, r"second of the Period is \[0\. 0\. 0\.\]: give the way"):
+            signorini.sector_equations(places, signorini.Period(way, (0.0, 0.0, 0.0)))
+
+        # Faces at two opposite corners have one node in common, though no node is between.
+        ends = signorini.pair_obstacle(places, faces[::5], signorini.Plane((0, 0, 0), outward), sector=sector)
+        np.testing.assert_allclose(ends.areas[ends.nodes == 0], np.linalg.norm(outward) / 12, rtol=1e-14)
+        # Balls repeat, whichever of them is named.
+        up, copies = outward / np.linalg.norm(outward), [m * way + n * other for m in range(-2, 3) for n in range(-2, 3)]
+        for corner in (0 * way, way, way + other, 0.5 * way + 0.4 * other):
+            centre = corner - 0.9 * up
+            found = signorini.pair_obstacle(places, faces, signorini.Sphere(centre, 0.8), sector=sector)
+            gaps = [min(np.linalg.norm(places[node] - centre - copy) for copy in copies) - 0.8 for node in found.nodes]
+            np.testing.assert_allclose(found.gaps, gaps, atol=1e-14)
+        for rigid in (signorini.Plane((0, 0, 0), outward + way), signorini.Sphere((0, 0, 0), 9, hollow=True)):
+            with self.assertRaisesRegex(signorini.SignoriniError, "a plane or a hollow shape does not repeat: give faces"):
+                signorini.pair_obstacle(places, faces, rigid, sector=sector)
 
     def test_nodes_on_the_axis_stay_there(self):
         axis = np.array([1.0, 2, 2]) / 3

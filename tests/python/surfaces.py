@@ -72,6 +72,10 @@ class Pairs(unittest.TestCase):
         np.testing.assert_array_equal(contact.adjusted(0.05), NODES)
         with self.assertRaisesRegex(signorini.SignoriniError, "within is -1, it must not be negative"):
             contact.adjusted(-1)
+        np.testing.assert_allclose(contact.adjusted(moves=2), down, atol=1e-15)
+        for within, moves in ((np.inf, 0), (0.05, 2)):
+            with self.assertRaisesRegex(ValueError, "give at least 1, and 1 with a limit within"):
+                contact.adjusted(within, moves)
 
     def test_copies_hold_the_pairs_too(self):
         functions = signorini._library.library()

@@ -51,7 +51,7 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
                                  "which tells them apart")
             if node not in seconds:  # of two sectors, each boundary is the image of the other
                 seconds[same[0]] = node
-        if not seconds:
+        if not seconds and not first_of:
             moved = f"shifted by {motion[2]}, a way of the Period" if isinstance(sector, Period) else (
                 f"turned by one of {sector.count} sectors about the axis")
             raise ValueError(f"no node is the image of another, {moved}: nodes of the two boundaries must match")
@@ -81,7 +81,7 @@ def checked(sector):
                         "that, or a Period") from None
     if not isinstance(sector.count, (int, np.integer)) or sector.count < 2:
         raise ValueError(f"count of a Sector is {sector.count!r}: give the number of sectors of the whole, an integer of at "
-                         "least 2")
+                         "least 2, or a Period in the place of a Sector")
     return sector
 
 
@@ -104,13 +104,22 @@ def _axis(sector, dim):
 def ways_of(period, dim):
     """The ways of a Period."""
     given = {"way": period.way} if period.second is None else period._asdict()
-    return [fit(name, way, [(dim,)], f"a way, shape {(dim,)}") for name, way in given.items()]
+    ways = [fit(name, way, [(dim,)], f"a way, shape {(dim,)}") for name, way in given.items()]
+    for name, way in zip(given, ways):
+        if not (np.isfinite(way).all() and way.any()):
+            raise ValueError(f"{name} of the Period is {way}: give the way from a first boundary to a second")
+    if np.linalg.matrix_rank([way / np.linalg.norm(way) for way in ways], _NEAR) < len(ways):
+        raise ValueError("way and second of the Period are along one line: give the shorter one alone")
+    return ways
 
 
 def _motions(sector, dim):
     """Those from a first boundary to a second, x -> turn @ (x - point) + shift + point: turn, point, shift."""
     if isinstance(sector, Period):
-        return [(np.eye(dim), np.zeros(dim), way) for way in ways_of(sector, dim)]
+        ways = ways_of(sector, dim)
+        if len(ways) == 2:  # a part may touch its image at a corner alone, or along a third line
+            ways += [ways[0] + ways[1], ways[0] - ways[1]]
+        return [(np.eye(dim), np.zeros(dim), way) for way in ways]
     # The turn by the formula of Rodrigues.
     angle, (x, y, z) = 2 * np.pi / sector.count, _axis(sector, dim)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])

@@ -151,9 +151,16 @@ def columns_of(K):
 
 
 def resists_turns(K, triangle, places):
-    """Does a stiffness matrix resist small turns of its nodes, which are at these places, (n, D)?"""
+    """Does a stiffness matrix resist small turns of its nodes, which are at these places, (n, D)? One that is none does not:
+    the library says what is wrong with it."""
     data, rows, starts = _compressed("K", K)
-    columns = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    data = np.asarray(reals("data of K", data), np.float64)
+    rows, starts = (np.asarray(integers(f"{name} of K", of), np.int64) for name, of in (("indices", rows), ("indptr", starts)))
+    counts = np.diff(starts)
+    if counts.min(initial=0) < 0 or not counts.sum() == len(rows) == len(data) or rows.min(initial=0) < 0 or rows.max(
+            initial=0) >= places.size:
+        return False
+    columns = np.repeat(np.arange(places.size), counts)
     if chosen("triangle", Triangle, triangle) != Triangle.FULL:
         off = rows != columns
         data, rows, columns = (np.concatenate([own, other[off]]) for own, other in
@@ -162,9 +169,8 @@ def resists_turns(K, triangle, places):
     for a, b in combinations(range(arms.shape[1]), 2):
         u = np.zeros_like(arms)
         u[:, a], u[:, b] = -arms[:, b], arms[:, a]
-        products = data * u.ravel()[columns]
-        force, terms = (np.bincount(rows, parts, arms.size) for parts in (products, abs(products)))
-        if abs(force).max() > _ROUNDING * terms.max():
+        force, stiffness = (np.bincount(rows, parts, arms.size) for parts in (data * u.ravel()[columns], abs(data)))
+        if (abs(force) > _ROUNDING * abs(u).max() * stiffness).any():
             return True
     return False
 

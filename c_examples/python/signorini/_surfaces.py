@@ -312,14 +312,16 @@ class SurfacePairs(Remade):
             return vectors
         return doubles(np.einsum("pik,pjk,pj->pi", frames_of(self.normals, self.tangents), frames, vectors))
 
-    def adjusted(self, within=np.inf, moves=2):
+    def adjusted(self, within=np.inf, moves=1):
         """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet.
 
         within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn.
         moves: how often; the moved nodes are paired again before the next. A second one leaves less at
-        single pairs of quadratic faces.
+        single pairs of quadratic faces. With a limit within one alone: distances are those before.
         Assemble K with these coordinates, and pair them again.
         """
+        if moves < 1 or moves > 1 and within < np.inf:
+            raise ValueError(f"moves is {moves}: give at least 1, and 1 with a limit within, which is of the distances before")
         contact, coordinates = self, self._coordinates.copy()
         for move in range(moves):
             if move:
