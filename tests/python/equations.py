@@ -260,6 +260,8 @@ class Sectors(unittest.TestCase):
                     for node, (i, j) in enumerate(steps) if i == 3 or j == 2 for axis in range(3)}
         found = {of: dofs[np.flatnonzero(turn)] for of, dofs, turn in equations}
         self.assertEqual({of: own.tolist() for of, own in found.items()}, {of: [own] for of, own in expected.items()})
+        with self.assertRaisesRegex(ValueError, r"no node is the image of another, shifted by \[-0\.404"):
+            signorini.sector_equations(places, signorini.Period(way, 1.01 * other))
         with self.assertRaisesRegex(ValueError, "way and second of the Period are along one line"):
             signorini.pair_obstacle(places, faces, signorini.Plane((0, 0, 0), outward), sector=signorini.Period(way, 2 * way))
         with self.assertRaisesRegex(ValueError, "second has the shape"):

@@ -42,7 +42,7 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
     sector = checked(sector)
     first_of = {}
     motions = _motions(sector, dim)
-    for motion in motions:
+    for place, motion in enumerate(motions):
         images, on_axis = _boundaries(coordinates, motion, bodies)
         seconds = {}
         for node, same in images:
@@ -51,7 +51,7 @@ def sector_equations(coordinates, sector, *, bodies=None, dofs=None):
                                  "which tells them apart")
             if node not in seconds:  # of two sectors, each boundary is the image of the other
                 seconds[same[0]] = node
-        if not seconds and not first_of:
+        if not seconds and place < 2:  # a way that was given
             moved = f"shifted by {motion[2]}, a way of the Period" if isinstance(sector, Period) else (
                 f"turned by one of {sector.count} sectors about the axis")
             raise ValueError(f"no node is the image of another, {moved}: nodes of the two boundaries must match")
