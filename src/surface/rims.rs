@@ -104,14 +104,12 @@ pub(super) fn fold(
 
 /// The share of cover with which a node keeps its row.
 fn least_cover(rims: Rims, rows: &BTreeMap<usize, Row>, dim: usize) -> f64 {
-    let asked = match rims {
-        Rims::Keep => return SAME_COVER,
+    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
+    match rims {
+        Rims::Keep => SAME_COVER,
+        _ if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
         Rims::FoldLittle => LEAST_OF_MANY - SAME_COVER,
         Rims::Fold => LEAST_COVER - SAME_COVER,
-    };
-    match rows.values().filter(|row| row.cover() >= asked).count() < dim {
-        true => LITTLE_COVER - SAME_COVER,
-        false => asked,
     }
 }
 
