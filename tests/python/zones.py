@@ -218,6 +218,10 @@ class Zones(unittest.TestCase):
             signorini.Model.from_surfaces(np.eye(2), {"bolt": 3})
         with self.assertRaisesRegex(ValueError, "zones\\['bolt'\\]: mu has 2 numbers: give the 1 of one pair"):
             signorini.Model.from_surfaces(np.eye(2), {"bolt": signorini.Zone(self.contacts["above"], [0.1, 0.2])})
+        for wrong, name in ((lambda: signorini.Zone(5, 0.3), "contact"),
+                            (lambda: signorini.Model.from_surfaces(np.eye(2), {"bolt": 5}), r"zones\['bolt'\]")):
+            with self.assertRaisesRegex(TypeError, f"{name} is a int: give what pair_surfaces or pair_obstacle returns"):
+                wrong()
         with self.assertRaisesRegex(signorini.SignoriniError, "slave face 0 of zone 'two' is slave face 0 of zone 'one'"):
             signorini.Model.from_surfaces(np.eye(2), dict.fromkeys(("one", "two"), self.contacts["above"]))
         with self.assertRaisesRegex(TypeError, "zones names a zone 1: give a text"):

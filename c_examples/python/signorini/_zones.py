@@ -28,6 +28,7 @@ class Zone:
     """
 
     def __init__(self, contact, mu=None, *, g=None, law=None, friction=None):
+        _check("contact", contact)
         self.contact, self.friction = contact, Friction(mu, g, law, friction)
 
     def numbers(self, name):
@@ -42,6 +43,11 @@ class Zone:
         return np.ascontiguousarray(found)
 
 
+def _check(name, contact):
+    if not isinstance(contact, SurfacePairs):
+        raise TypeError(f"{name} is a {type(contact).__name__}: give what pair_surfaces or pair_obstacle returns")
+
+
 class Zones(Remade):
     """Pairs of several zones, one zone after the other; contacts: the SurfacePairs by name."""
 
@@ -51,14 +57,13 @@ class Zones(Remade):
         self._made_of = (dict(contacts),)
         # Without a zone that has a law, the law of a case is that of all pairs.
         self.has_laws = any(isinstance(zone, Zone) for zone in contacts.values())
-        zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
-        self.contacts = {name: zone.contact for name, zone in zones.items()}
-        for name, contact in self.contacts.items():
+        for name, zone in contacts.items():
             if not isinstance(name, str):
                 raise TypeError(f"zones names a zone {name!r}: give a text as its name")
-            if not isinstance(contact, SurfacePairs):
-                raise TypeError(f"zones[{name!r}] is a {type(contact).__name__}: give what pair_surfaces or "
-                                f"pair_obstacle returns")
+            if not isinstance(zone, Zone):
+                _check(f"zones[{name!r}]", zone)
+        zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
+        self.contacts = {name: zone.contact for name, zone in zones.items()}
         self._check_meshes()
         self._join(zones)
 
