@@ -235,7 +235,8 @@ struct signorini_surface_settings {
      * same, which you give as equations.
      */
     double period[3];
-    double second_period[3]; /**< The same of a body that repeats along a second line too. */
+    /** The way along a second line, of a body that repeats along two; default 0, 0, 0: none. */
+    double second_period[3];
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

@@ -130,7 +130,7 @@ pub struct SignoriniSurfaceSettings {
     /// of the mesh to the second, dim entries; default 0, 0, 0: none. Displacements of both are the
     /// same, which you give as equations.
     pub period: [f64; 3],
-    /// The same of a body that repeats along a second line too.
+    /// The way along a second line, of a body that repeats along two; default 0, 0, 0: none.
     pub second_period: [f64; 3],
 }
 

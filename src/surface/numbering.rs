@@ -73,7 +73,7 @@ impl Numbering {
         if side.is_rigid() { Ok(()) } else { self.name_firsts(&on_boundaries, &seconds) }
     }
 
-    /// Of nodes that are images of each other one is the first, if there is one that is on no second boundary.
+    /// Names the first one of nodes that are images of each other, if there is one that is on no second boundary.
     ///
     /// # Errors
     /// As [`Self::place`].

@@ -1,4 +1,4 @@
-//! Rigid obstacles with a shape: each slave node against the nearest point. In a sector shapes repeat as the body does.
+//! Rigid obstacles with a shape: each slave node against the nearest point. In a sector shapes repeat in the neighbours.
 
 use std::collections::BTreeMap;
 

@@ -20,7 +20,7 @@ use crate::error::Error;
 /// with a half that of meshes that are covered wholly, with three tenths twice and with a tenth three times as large.
 const LEAST_COVER: f64 = 0.5;
 
-/// The same where more pairs at the rim count more than that error.
+/// Nodes with less than this are at a rim where more pairs count more than that error.
 const LEAST_OF_MANY: f64 = 0.3;
 
 /// Where so few nodes have that much that they could not hold a body, and where no node beside a rim has it, as under a
