@@ -164,7 +164,7 @@ pub(super) fn measure_pair<R: Relation>(
     let underflow = if d.iter().chain(low).all(|&d| d == 0.0) { 0.0 } else { count * LEAST };
     let products = (4.0 * UNIT * count).powi(2) * (terms.base + load) + underflow;
     let doubt = natural.doubt.root() + natural.sensitivity * products;
-    // Of one component of the residual, of its norm and of the quotient.
+    // Those of one component of the residual, of its norm and of the quotient.
     let upper = ratio((size + doubt) * (1.0 + FEW_OPERATIONS), scale);
     let hidden = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
     let rounding = ratio(natural.sensitivity * (UNIT * terms.rest + inherent), scale);

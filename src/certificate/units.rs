@@ -113,7 +113,7 @@ mod tests {
         }
     }
 
-    /// What a force lacks to equilibrium counts its rounding.
+    /// The rounding of a force counts in its imbalance.
     #[test]
     fn equilibrium_counts_the_rounding_of_the_smallest_forces() {
         let ((units, certificate), rng) = (small(), &mut Rng::with_seed(2));

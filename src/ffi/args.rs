@@ -293,7 +293,7 @@ mod tests {
         let arrays = unsafe { Arrays::of_call() };
         let most = isize::MAX as usize / size_of::<f64>();
         for (length, exists) in [(most, true), (most + 1, false)] {
-            // Of matrices, nothing is held in reserve.
+            // Nothing is held in reserve for matrices.
             let noted = arrays.at(1, "x").matrix().note(&1.0_f64, length, false);
             assert_eq!(noted.is_ok(), exists);
         }

@@ -13,7 +13,7 @@ use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::products;
 use crate::shortage::Shortage;
 
-/// What a step of a call gives, or why the call ends.
+/// The result of a step of a call, or why the call ends.
 pub(super) type Outcome<T> = Result<T, Failure>;
 
 /// Why a call ends without a result.

@@ -95,7 +95,7 @@ struct Lane<'m> {
     series: Series<'m>,
     /// The caller's starts of the next cases.
     starts: Vec<f64>,
-    /// What the last cases have come to, each with its number.
+    /// The results of the last cases, each with its number.
     solved: Vec<(usize, Result<Solution, Error>)>,
 }
 

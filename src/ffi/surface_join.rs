@@ -205,7 +205,7 @@ impl<'h> Zone<'h> {
     }
 }
 
-/// What the joined pairs hold of their zones.
+/// The zones of joined pairs, as they hold them.
 fn joined_zones(zones: &[Zone<'_>], found: &Joined, parts: &[ContactZone<'_>]) -> JoinedZones {
     let pairs = found.starts.windows(2).map(|ends| ends[1] - ends[0]);
     let friction = zones.iter().zip(pairs);

@@ -217,7 +217,7 @@ impl<'h> Host<'h> {
     }
 }
 
-/// What joined pairs hold of their zones; nothing of pairs that were not joined.
+/// The zones of joined pairs, as they hold them; none of pairs that were not joined.
 #[derive(Default)]
 pub(super) struct JoinedZones {
     pub(super) names: Vec<String>,

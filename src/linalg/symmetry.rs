@@ -59,7 +59,7 @@ impl Matrix<'_> {
     ) -> bool {
         let mut is_beyond = false;
         for (down, j) in down.chunks_mut(AT_ONCE).zip((first..).step_by(AT_ONCE)) {
-            // What is missing at the end is the last column once more, with the factor 0.
+            // The last column with the factor 0 stands for those that are missing at the end.
             let place = |c: usize| j + c.min(down.len() - 1);
             let columns: [&[f64]; AT_ONCE] = std::array::from_fn(|c| self.column(place(c)));
             let factors = std::array::from_fn(|c| if c < down.len() { x[j + c] } else { 0.0 });

@@ -40,7 +40,7 @@ impl Model {
         case: impl Fn(usize) -> SolvedCase<'c>,
         mut take: impl FnMut(usize, Vec<f64>),
     ) -> Result<(), Error> {
-        // Of several it names the number.
+        // The message names the number of one of several.
         let of_case = |error: Error, k| if count == 1 { error } else { error.in_case(k) };
         for k in 0..count {
             self.check_solved(&case(k)).map_err(|error| of_case(error, k))?;

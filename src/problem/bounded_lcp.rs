@@ -19,7 +19,7 @@ pub struct BoundedLcp<'a> {
     pub lower: &'a [f64],
     /// `true` if `M` is symmetric, as far as rounding goes.
     pub symmetric: bool,
-    /// What problems with this matrix leave for each other; `None`: this one stands alone.
+    /// The memory that problems with this matrix share; `None`: this one stands alone.
     pub remembered: Option<&'a Remembered>,
 }
 

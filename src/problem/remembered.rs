@@ -1,4 +1,4 @@
-//! What the solution of a problem leaves for the next one with the same matrix.
+//! Memory that the solution of a problem leaves for the next one with the same matrix.
 
 use std::any::Any;
 use std::fmt;

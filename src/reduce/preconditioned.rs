@@ -9,7 +9,7 @@ use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
 use crate::problem::{GoesOn, HeldSet, Solved, StiffnessOperator, iterated};
 
-/// What the host's preconditioner stands for: `A` with components of `d` held, and with springs.
+/// The matrix that the host's preconditioner stands for: `A` with components of `d` held, and with springs.
 #[derive(Clone, Copy, Debug)]
 pub struct Held<'a> {
     /// One for each component of `d`: `true` if it is held at zero.
@@ -50,7 +50,7 @@ pub struct PreconditionedReduction {
     places: Vec<usize>,
     /// Of each unknown here.
     units: Vec<f64>,
-    /// What was held in the last call of the preconditioner, if it has succeeded.
+    /// The components held in the last call of the preconditioner, if it has succeeded.
     held: Mutex<Option<HeldSet>>,
     last: LastCase,
 }

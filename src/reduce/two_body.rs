@@ -79,7 +79,7 @@ impl TwoBodyReduction {
             .collect();
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
-        // Of a work that is ended no error is told.
+        // A work that is ended tells no error.
         let not_semidefinite =
             || Error::invalid(Argument::Matrix, "K_A + K_B is not positive semi-definite");
         let sum = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on);

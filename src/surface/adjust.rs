@@ -16,7 +16,7 @@ use crate::linalg::vector::norm_inf;
 use crate::linalg::vector3::{self, Vector3, vector, without};
 use crate::monitor::Monitor;
 
-/// What a row sees of the motion of its nodes.
+/// The motions of nodes, as rows see them.
 struct Motions<'p> {
     found: &'p SurfacePairs,
     pairs: Vec<&'p SurfacePair>,

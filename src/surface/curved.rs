@@ -11,7 +11,7 @@ use crate::linalg::vector3::Vector3;
 /// is for faces at the limit of what is accepted.
 const STEPS: usize = 40;
 
-/// What a step of Newton's method may leave of local coordinates: a thousandth of what points of integration may.
+/// The error of local coordinates that a step of Newton's method may leave: a thousandth of what points of integration may.
 const LAST: f64 = 1e-15;
 
 /// Powers of a local coordinate.
@@ -110,7 +110,7 @@ impl Curved {
             let step =
                 [(from[0] * d - b * from[1]) * inverse, (a * from[1] - from[0] * c) * inverse];
             at = [at[0] - step[0], at[1] - step[1]];
-            // What remains is of the order of its square, by the change of the derivatives.
+            // The error that remains is of the order of its square, by the change of the derivatives.
             let length = step[0].abs().max(step[1].abs());
             if self.change * length * length <= LAST {
                 return Some(at);

@@ -40,7 +40,7 @@ pub(super) fn on_arc([p, a, b, q]: &Arc, t: f64) -> (Vector3, Vector3) {
     (point, 3.0 * slope)
 }
 
-/// What a part of a face is.
+/// A part of a face.
 #[derive(Clone, Debug)]
 enum Form {
     Arc(Arc),

@@ -191,7 +191,7 @@ impl SurfacePairs {
             }
         }
         if self.axisymmetric {
-            // What is across the axis cancels around a ring, and so do all moments.
+            // Forces across the axis cancel around a ring, and so do all moments.
             (force.x, moment) = (0.0, Vector3::zeros());
         }
         Ok(Resultant { force: force.into(), moment: moment.into(), ..resultant })

@@ -61,7 +61,7 @@ impl Images {
         (node, self.motion(place).turn)
     }
 
-    /// The same for a node on the second boundary too, which is an image of one on the first; and its motion.
+    /// As [`Self::of`], for a node on the second boundary too, which is an image of one on the first; and its motion.
     pub(super) fn home(&self, node: usize) -> (usize, Motion) {
         let (place, node) = self.at(node);
         let motion = self.motion(place);

@@ -28,7 +28,7 @@ use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
-/// What a slave face has over master faces, if it lies over any, and `true` if it has the functions of a face that is
+/// The part of a slave face over master faces, if it lies over any, and `true` if it has the functions of a face that is
 /// covered wholly.
 type Cover = (Option<Covered>, bool);
 

@@ -20,7 +20,7 @@ const LEFT: f64 = 1e-12;
 /// Straight edges that stand for curved ones leave a share of the area to the neighbour; points may leave this part of it.
 const OF_SAG: f64 = 1e-4;
 
-/// Of masters the part is looked at that is nearer to a curved face than this share of its size: further away its
+/// Masters are looked at as far as they are nearer to a curved face than this share of its size: further away its
 /// local coordinates may turn back.
 const AROUND: f64 = 0.1;
 
@@ -49,13 +49,13 @@ pub(super) struct SlaveFace<'a> {
     flat: Flat<'a>,
     /// Where the face and its masters are compared: in the plane, or in its local coordinates.
     outline: Vec<Point>,
-    /// Of a curved face: a convex polygon around it in the plane.
+    /// A convex polygon around a curved face in the plane.
     around: Option<Vec<Point>>,
     area: f64,
     face: Face<'a>,
 }
 
-/// What lies over a master face.
+/// The part of a slave face over a master face.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part {
     /// Share of the slave face.

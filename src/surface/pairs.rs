@@ -240,7 +240,7 @@ impl PairArrays {
             let (node, turn) = images.of(node);
             for axis in 0..dim {
                 let moved = turn * vector3::axis(axis);
-                // What is left of a direction that is held is rounding, which is not to pass for a motion.
+                // The rest of a direction that is held is rounding, which is not to pass for a motion.
                 let free = without(moved, held).map(|part| without_rounding(part, 1.0));
                 let vector = weight * free;
                 self.masters.push(dofs.along(axis, node, dim));

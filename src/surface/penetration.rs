@@ -65,7 +65,7 @@ pub struct Penetration {
     pub master: Option<usize>,
 }
 
-/// What pairs hold, and the slave faces that they do not hold wholly.
+/// The nodes that pairs hold, and the slave faces that they do not hold wholly.
 struct Held {
     /// By place of the node.
     nodes: Vec<bool>,

@@ -16,7 +16,7 @@ pub struct Sector {
     pub axis: [f64; 3],
     /// Number of sectors of the whole, at least 2.
     pub count: usize,
-    /// Of a body that repeats along a line without end, or along two, the ways from a first boundary to a second; else
+    /// The ways from a first boundary to a second, of a body that repeats along a line without end, or along two; else
     /// zero. Then the fields before are not read.
     pub periods: [[f64; 3]; 2],
 }

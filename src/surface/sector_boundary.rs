@@ -38,7 +38,7 @@ pub(super) fn second_boundary(
             );
             return Err(Error::invalid(Argument::Settings, what));
         }
-        // Of two sectors each boundary is the image of the other.
+        // Each boundary is the image of the other where there are two sectors.
         let is_first = |other: &&usize| **other != place && !second.contains_key(&nodes[place]);
         let image = same.first().filter(is_first).copied();
         second.extend(image.map(|other| (nodes[other], nodes[place])));

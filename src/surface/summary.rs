@@ -1,4 +1,4 @@
-//! What a pairing has found, in words.
+//! The findings of a pairing, in words.
 
 use super::pairs::SurfacePairs;
 use crate::error::{Message, index};

@@ -28,7 +28,7 @@ pub struct Surfaces<'a> {
     pub master: Master<'a>,
 }
 
-/// What a surface may touch. A rigid one does not move: rows have slaves alone.
+/// The other side, which a surface may touch. A rigid one does not move: rows have slaves alone.
 #[derive(Clone, Copy, Debug)]
 pub enum Master<'a> {
     /// Faces of the same mesh.

@@ -21,7 +21,7 @@ struct Branch {
     bounds: Bounds,
     /// Range in `order`.
     faces: std::ops::Range<usize>,
-    /// What is behind its box; `None`: no question has come to it.
+    /// The content behind its box; `None`: no question has come to it.
     inside: Option<Inside>,
 }
 

@@ -92,7 +92,7 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     Ok(Joined { contact: joined, starts })
 }
 
-/// What is wrong with zones, in words.
+/// The first fault of zones, in words.
 fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
     let Some(first) = zones.first() else { return Err("there is no zone".into()) };
     for (place, zone) in zones.iter().enumerate() {
@@ -195,7 +195,7 @@ fn shared_face(zones: &[ContactZone<'_>]) -> Option<String> {
 }
 
 impl Joined {
-    /// What was found in the zones that were joined, in a sentence for each, and how many pairs are in others.
+    /// The findings in the zones that were joined, in a sentence for each, and how many pairs are in others.
     pub fn summary(&self, zones: &[ContactZone<'_>]) -> Message {
         let told =
             |zone: &ContactZone<'_>| format!("{}: {}", zone.name, zone.contact.summary().marked());

@@ -110,7 +110,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     const double bytes = megabytes() - memory;
-    /* What a check after a solution costs: nothing has moved. */
+    /* The cost of a check after a solution: nothing has moved. */
     double *still = calloc((size_t)(6 * grid), sizeof *still);
     signorini_penetration through = {.struct_size = sizeof through};
     const double checked = seconds();

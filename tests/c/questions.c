@@ -111,7 +111,7 @@ static void check_zones(int32_t base)
         CHECK_NEAR(moved[i], i % 2 == 0 ? x[i] : i < 4 ? 0.1 : 0);
     signorini_surface_free(joined);
 
-    /* What is refused. */
+    /* Arguments that are refused. */
     zones[1].name = name[0];
     CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
     CHECK_TEXT(signorini_last_error(), "two zones are named 'A on B'");

@@ -30,7 +30,7 @@ struct Host {
     /// All entries of each column.
     columns: Vec<Vec<(usize, f64)>>,
     components: Vec<usize>,
-    /// What was held in the last call.
+    /// The components held in the last call.
     last: Mutex<Option<(Vec<bool>, Vec<f64>)>>,
     asked: Arc<AtomicU64>,
     wrong: Wrong,

@@ -1,4 +1,4 @@
-//! What the files of [`crate::geometry`] take of the library.
+//! The parts that the files of [`crate::geometry`] take of the library.
 
 #![allow(dead_code)] // The library uses all of it.
 

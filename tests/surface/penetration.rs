@@ -28,7 +28,7 @@ struct Beam {
     kept: KeptSurfaces,
 }
 
-/// What lies below.
+/// The body below.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Below {
     Block,
@@ -68,7 +68,7 @@ impl Beam {
         Beam { mesh, first_of_block, found, kept: KeptSurfaces::new(&surfaces, 0.0) }
     }
 
-    /// What is found after displacements of all degrees of freedom.
+    /// The penetration after displacements of all degrees of freedom.
     fn after(&self, u: impl Fn(usize) -> f64) -> Penetration {
         let of_node = |node, axis| u(2 * node + axis);
         self.kept.penetration(&self.found, of_node, &mut unlimited()).unwrap()

@@ -103,7 +103,7 @@ fn a_period_has_the_rows_of_many() {
             let whole = many.pair(&settings).unwrap();
             let found = part.pair(&SurfaceSettings { sector, ..settings }).unwrap();
             let context = format!("{shape:?}, {ways}, {pairing:?}");
-            // Of nodes that are images of each other one has the pair.
+            // One of nodes that are images of each other has the pair.
             let of_part = |node: &usize| among.iter().position(|other| other == node);
             let slaves = whole.pairs.iter().filter_map(|pair| of_part(&pair.slave));
             let expected: BTreeSet<Key> = slaves.map(|node| keys[0][node]).collect();

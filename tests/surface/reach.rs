@@ -61,7 +61,7 @@ fn masters_beyond_the_search_distance_are_told() {
     }
 }
 
-/// Of two masters one behind the other the nearer one counts, if no search distance asks for both.
+/// The nearer of two masters one behind the other counts, if no search distance asks for both.
 #[test]
 fn the_nearest_of_masters_behind_each_other_counts() {
     let rng = &mut Rng::with_seed(2);
@@ -368,7 +368,7 @@ fn check_resultant(found: &SurfacePairs, slope: f64, area: f64) {
     assert_eq!((sums.force[0], sums.moment), (0.0, [0.0; 3]));
 }
 
-/// What cannot turn about an axis is refused.
+/// Faces that cannot turn about an axis are refused.
 #[test]
 fn wrong_rings_are_refused() {
     let settings = SurfaceSettings { axisymmetric: true, ..SurfaceSettings::default() };

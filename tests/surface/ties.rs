@@ -122,7 +122,7 @@ fn the_whole_stress_passes_flat_interfaces() {
             let exact: Vec<f64> = blocks.nodes.iter().flat_map(&field).collect();
             let stiffness = Solid::stiffness(&blocks.solids.each_ref());
             let mut load = stiffness.times(&exact);
-            // What the interface carries is no load: it acts on the lower block upwards along the normal, and back.
+            // The force in the interface is no load: it acts on the lower block upwards along the normal, and back.
             for (faces, sign) in blocks.faces.iter().zip([-1.0, 1.0]) {
                 for (node, share, _) in window_loads(dim, &blocks.nodes, faces, [[0.0, 1.0]; 2]) {
                     (0..dim).for_each(|c| load[dim * node + c] += sign * traction[c] * share);

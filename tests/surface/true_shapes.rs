@@ -257,7 +257,7 @@ fn gaps_are_closed_and_then_shifted() {
     }
 }
 
-/// What is wrong with a shape, and where, is said.
+/// The fault of a shape, and its place, are said.
 #[test]
 fn shapes_that_do_not_fit_are_refused() {
     let rng = &mut Rng::with_seed(13);

@@ -268,7 +268,7 @@ int main(int argc, char **argv)
     int result = EXIT_SUCCESS;
 
     PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-    /* What the command line says comes after this, and counts. */
+    /* Options of the command line come after this, and count. */
     PetscCall(PetscOptionsInsertString(NULL, multigrid));
     PetscCall(PetscOptionsInsert(NULL, &argc, &argv, NULL));
     PetscCall(run(&result));

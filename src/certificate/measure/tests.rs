@@ -1,4 +1,4 @@
-//! What a certificate says of rounding.
+//! Rounding in a certificate.
 
 use super::{Certificate, UNIT, certify};
 use crate::problem::{ContactProblem, FrictionLaw};

@@ -188,7 +188,7 @@ impl<I: Integer> Argument<*const I> {
         Ok(i64::from(value))
     }
 
-    /// What `take` makes of an integer array of `length` entries.
+    /// The result of `take` for an integer array of `length` entries.
     pub(super) fn entries<T>(self, length: i64, take: impl FnOnce(&[I]) -> T) -> Outcome<T> {
         // SAFETY: the contract of `of`.
         let arrays = unsafe { Arrays::of_call() };

@@ -67,7 +67,7 @@ const BETWEEN: usize = 2;
 /// A graph whose vertices stand for several of the first one.
 struct Level<'l> {
     links: Cow<'l, Links>,
-    /// What ties a vertex to each neighbour: the sum over the edges of the first graph.
+    /// The weight of the tie to each neighbour: the sum over the edges of the first graph.
     strength: Vec<i32>,
     /// Vertices of the first graph.
     weight: Vec<i64>,

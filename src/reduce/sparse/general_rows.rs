@@ -168,7 +168,7 @@ impl<'r> KeptRows<'r> {
         let (pair, axis) = (equation / self.dim, equation % self.dim);
         match &self.places[pair] {
             RowPlace::Frame(first) => {
-                // What is held moves nothing.
+                // A held component moves nothing.
                 let directions = self.frames[pair].directions().enumerate();
                 let moves = directions.filter(|(c, _)| !self.held[self.dim * pair + c]);
                 moves.map(|(c, direction)| (first + c, direction[axis])).collect()

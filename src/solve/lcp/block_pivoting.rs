@@ -216,7 +216,7 @@ impl Iterate<'_> {
             self.x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
             if near.is_none() {
                 lcp.matrix.add_product(&step, &mut self.w);
-                // What it is worth is measured where it ends.
+                // Its worth is measured where it ends.
                 let solved = self.w.iter_mut().zip(basic).filter(|(_, basic)| **basic);
                 solved.for_each(|(w, _)| *w = 0.0);
             }

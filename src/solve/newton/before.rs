@@ -17,10 +17,10 @@ use crate::solve::part::ReducedProblem;
 use crate::solve::pieces::Equations;
 use crate::solve::result::Ending;
 
-/// What a problem leaves of the elimination of open pairs, for the next one with its matrix.
+/// The elimination of open pairs that a problem leaves for the next one with its matrix.
 pub struct Kept {
     pub elimination: Arc<Elimination>,
-    /// What the problem on the candidates has left for itself.
+    /// The memory that the problem on the candidates has left for itself.
     pub of_candidates: Remembered,
 }
 

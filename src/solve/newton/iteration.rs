@@ -244,7 +244,7 @@ impl<'e> Dense<'e> {
         let equations = self.equations;
         while !monitor.is_late() {
             let Ok(step) = self.systems.step(&point.lack) else { break };
-            // What has been carried along has the rounding of all steps: the last digits are measured anew.
+            // A force that is carried along has the rounding of all steps: the last digits are measured anew.
             let next = point.after(equations, &Step { product: Vec::new(), ..step }, 1.0);
             if !(next.merit < CHORD * point.merit) {
                 break;

@@ -27,7 +27,7 @@ pub struct Equations<'a> {
     pub root: Vec<f64>,
     /// Size of the loads of the whole problem, as `eta` measures it; a force.
     pub unit: f64,
-    /// What problems with this matrix leave for each other; `None`: the equations stand alone.
+    /// The memory that problems with this matrix share; `None`: the equations stand alone.
     pub remembered: Option<&'a Remembered>,
 }
 

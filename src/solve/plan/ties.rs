@@ -61,7 +61,7 @@ struct Block {
     components: Vec<usize>,
     /// Column-major.
     matrix: Vec<f64>,
-    /// What their problems leave for each other.
+    /// The memory that their problems share.
     remembered: Remembered,
 }
 
@@ -137,7 +137,7 @@ impl Others {
         all
     }
 
-    /// What was found for these pairs, as a result of the whole problem.
+    /// The solution on these pairs, as a result of the whole problem.
     fn on_whole(&self, call: &Call<'_>, found: Solution, monitor: &mut Monitor<'_>) -> Solution {
         let (contact, settings) = (call.contact, call.settings);
         let (d, low) = (self.displacements(&found.d), self.spread(&found.d_low));
