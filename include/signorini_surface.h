@@ -237,6 +237,13 @@ struct signorini_surface_settings {
     double period[3];
     /** The way along a second line, of a body that repeats along two; default 0, 0, 0: none. */
     double second_period[3];
+    /**
+     * Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets of
+     * curved sides do not fit. Forces of pairs then balance in moments too, and rows have
+     * row_vectors, not row_weights. Default 0.
+     */
+    int32_t keep_turns;
+    int32_t reserved;                       /**< 0. */
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

@@ -132,6 +132,12 @@ pub struct SignoriniSurfaceSettings {
     pub period: [f64; 3],
     /// The way along a second line, of a body that repeats along two; default 0, 0, 0: none.
     pub second_period: [f64; 3],
+    /// Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets of
+    /// curved sides do not fit. Forces of pairs then balance in moments too, and rows have
+    /// row_vectors, not row_weights. Default 0.
+    pub keep_turns: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -162,6 +168,7 @@ impl SignoriniSurfaceSettings {
         (dim, nodes): (usize, usize),
     ) -> Outcome<(SurfaceSettings, ParsedSettings, Numbering)> {
         let given = at.copy(pointer)?;
+        at.check_reserved(given.reserved)?;
         let pairing = at.chosen("pairing", given.pairing)?;
         let normals = at.chosen("choice of normals", given.normals)?;
         let rims = at.chosen("choice of rims", given.rims)?;
@@ -197,6 +204,7 @@ impl SignoriniSurfaceSettings {
             close_within: given.close_within,
             clearance: given.clearance,
             tangent: Some(given.tangent).filter(|along| along.iter().any(|part| *part != 0.0)),
+            keep_turns: given.keep_turns != 0,
         };
         let limits = SignoriniSettings {
             time_limit: given.time_limit,

@@ -34,6 +34,7 @@ pub(super) fn pair_of_row(
         slave: node,
         nodes,
         slave_count,
+        turns: Vec::new(),
         point: point.into(),
         normal: normal.into(),
         // They follow once all normals are known.

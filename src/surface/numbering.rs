@@ -12,7 +12,7 @@ use super::sweep::Bounds;
 use super::symmetry::{Mirror, OnPlanes};
 use super::watch::Watch;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::Vector3;
+use crate::linalg::vector3::{Matrix3, Vector3};
 
 /// The image of a node, or of a face: the place of its motion among those of the images, and its number in the model.
 pub(super) type Image = (usize, usize);
@@ -181,19 +181,24 @@ impl Numbering {
         if let [_] = upon[..] {
             return Ok(());
         }
-        let (nodes, slave_count) = (std::mem::take(&mut pair.nodes), pair.slave_count);
-        let mut weights = BTreeMap::new();
-        for (at, (node, weight)) in nodes.into_iter().enumerate() {
+        let mut entries: BTreeMap<_, (f64, Matrix3)> = BTreeMap::new();
+        for ((is_master, node), (weight, turn)) in pair.entries() {
             let (place, node) = self.images.at(node);
-            let mut first = usize::MAX;
+            let (mut first, mut back) = (usize::MAX, Matrix3::identity());
             for (by, _) in &upon {
-                let motion = self.images.motion(*by).after(&self.images.motion(place));
-                let image = (self.place(&motion)?, node);
-                first = first.min(self.number(image)?);
+                let by = self.images.motion(*by);
+                let motion = by.after(&self.images.motion(place));
+                let image = self.place(&motion)?;
+                let image = self.number((image, node))?;
+                if image < first {
+                    (first, back) = (image, by.turn.transpose());
+                }
             }
-            *weights.entry((at >= slave_count, first)).or_default() += weight;
+            let entry = entries.entry((is_master, first)).or_default();
+            entry.0 += weight;
+            entry.1 += turn * back;
         }
-        pair.set_nodes(weights);
+        pair.set_entries(entries);
         pair.area /= upon.len() as f64;
         Ok(())
     }

@@ -117,12 +117,16 @@ fn search(
         self_overlap::check(master, &mut opposite, reach.overlap, watch)?;
     }
     let candidates = Candidates::new(opposite, reach, span(sides));
-    match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, watch),
+    let mut found = match settings.pairing {
+        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, watch)?,
         Pairing::NodeToSurface => {
-            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, watch)
+            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, watch)?
         }
+    };
+    if settings.keep_turns {
+        found.pairs.iter_mut().for_each(|pair| pair.keep_turns(sides));
     }
+    Ok(found)
 }
 
 /// How far masters are looked for. Displacements that are small beside the bodies do not reach further than the smaller of the

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::images::Images;
 use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::{self, Vector3, without};
+use crate::linalg::vector3::{Matrix3, Vector3};
 
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
@@ -22,6 +22,9 @@ pub struct SurfacePair {
     pub nodes: Vec<Weight>,
     /// Number of slaves among them.
     pub slave_count: usize,
+    /// The matrix of each master, by columns, that takes the turn of the masters off `d`, if the row keeps rigid turns: it is added
+    /// to `-w`. Otherwise empty.
+    pub turns: Vec<[[f64; 3]; 3]>,
     /// Where the force of the pair acts on the slave's body: the slave nodes' places by their weights.
     pub point: [f64; 3],
     /// Unit normal, outward from the slave's body.
@@ -82,28 +85,8 @@ pub struct SurfaceReport {
     pub overlapping_and_rough: [usize; 2],
 }
 
-/// Degrees of freedom of the host's nodes.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NodeDofs {
-    /// `per_node * node + axis`: 6 a node for shells, of which the first `dim` are displacements.
-    PerNode(usize),
-    /// `dim` for each node of the host, in the order of the axes.
-    Listed(Vec<usize>),
-}
-
-impl NodeDofs {
-    /// Those of a node, `dim` of them.
-    pub fn of(&self, node: usize, dim: usize) -> impl Iterator<Item = usize> {
-        (0..dim).map(move |axis| self.along(axis, node, dim))
-    }
-
-    fn along(&self, axis: usize, node: usize, dim: usize) -> usize {
-        match self {
-            NodeDofs::PerNode(per_node) => per_node * node + axis,
-            NodeDofs::Listed(dofs) => dofs[dim * node + axis],
-        }
-    }
-}
+/// An entry of a row: `true` of a master, the node, its weight, and what keeps turns.
+pub(super) type Entry = ((bool, usize), (f64, Matrix3));
 
 /// Contact pairs from two surfaces, or from a surface and an obstacle.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -127,35 +110,6 @@ pub struct SurfacePairs {
     pub report: SurfaceReport,
 }
 
-/// Arrays of pairs in degrees of freedom `dim * node + axis`: what [`crate::reduce::ContactPairs`] takes, with
-/// the gaps and areas that belong to them.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PairArrays {
-    /// Space dimension.
-    pub dim: usize,
-    /// Number of pairs.
-    pub count: usize,
-    /// Degrees of freedom of the slaves, `dim` for each pair; empty in general rows.
-    pub slaves: Vec<usize>,
-    /// Start of each pair's masters, in general rows of all its nodes; `count + 1` entries.
-    pub master_start: Vec<usize>,
-    /// Degrees of freedom of the masters, in general rows of all nodes, `dim` for each; one for each of [`Self::vectors`].
-    pub masters: Vec<usize>,
-    /// Weights of the masters, in general rows of all nodes with their signs; empty with [`Self::vectors`].
-    pub weights: Vec<f64>,
-    /// General rows by degree of freedom, of a sector, of planes of symmetry that are across no axis and where rows reach across
-    /// a plane: `dim` numbers for each of `masters`. Otherwise empty.
-    pub vectors: Vec<f64>,
-    /// Normals, `dim` for each pair.
-    pub normals: Vec<f64>,
-    /// First tangents, `dim` for each pair.
-    pub tangents: Vec<f64>,
-    /// Initial gaps.
-    pub gaps: Vec<f64>,
-    /// Areas: the pressure is the normal force over it.
-    pub areas: Vec<f64>,
-}
-
 impl SurfacePair {
     /// Slave nodes of the row with their weights, by node. One node of weight 1 on linear faces that
     /// are covered; a mid node of a quadratic face has its corners beside it, and a node that has taken
@@ -169,12 +123,25 @@ impl SurfacePair {
         &self.nodes[self.slave_count..]
     }
 
-    /// Gives the row other nodes: `true` of masters, and the node, with its weight. Weights that are zero but for rounding are
-    /// left out.
-    pub(super) fn set_nodes(&mut self, mut weights: BTreeMap<(bool, usize), f64>) {
-        weights.retain(|_, weight| weight.abs() > ROUNDING);
-        self.slave_count = weights.keys().filter(|(is_master, _)| !is_master).count();
-        self.nodes = weights.into_iter().map(|((_, node), weight)| (node, weight)).collect();
+    /// The entries of the row: `true` of masters, the node, its weight, and what keeps turns, zero without.
+    pub(super) fn entries(&self) -> impl Iterator<Item = Entry> {
+        let turn = |at: usize| {
+            let at = at.checked_sub(self.slave_count)?;
+            self.turns.get(at).copied().map(Matrix3::from)
+        };
+        self.nodes.iter().enumerate().map(move |(at, &(node, weight))| {
+            ((at >= self.slave_count, node), (weight, turn(at).unwrap_or_default()))
+        })
+    }
+
+    /// Gives the row other entries. Those that are zero but for rounding are left out.
+    pub(super) fn set_entries(&mut self, mut entries: BTreeMap<(bool, usize), (f64, Matrix3)>) {
+        entries.retain(|_, (weight, turn)| weight.abs().max(turn.amax()) > ROUNDING);
+        self.slave_count = entries.keys().filter(|(is_master, _)| !is_master).count();
+        self.nodes = entries.iter().map(|((_, node), (weight, _))| (*node, *weight)).collect();
+        let turns = entries.iter().skip(self.slave_count).map(|(_, (_, turn))| *turn);
+        let keeps_turns = turns.clone().any(|turn| turn != Matrix3::zeros());
+        self.turns = if keeps_turns { turns.map(Into::into).collect() } else { Vec::new() };
     }
 
     /// `true` if the row has an image of a node.
@@ -193,13 +160,9 @@ impl SurfacePair {
     /// The pair without its masters: against an obstacle.
     pub fn without_masters(mut self) -> SurfacePair {
         self.nodes.truncate(self.slave_count);
+        self.turns.clear();
         self
     }
-}
-
-/// `true` if one of orthonormal directions is along an axis.
-fn is_along(directions: &[Vector3], axis: usize) -> bool {
-    directions.iter().any(|along| along.abs() == vector3::axis(axis))
 }
 
 /// A gap of coordinates of this size: zero if it is their rounding, so that surfaces that touch do not overlap.
@@ -207,137 +170,10 @@ pub(super) fn without_rounding(distance: f64, size: f64) -> f64 {
     if distance.abs() <= ROUNDING * size { 0.0 } else { distance }
 }
 
-impl PairArrays {
-    /// Adds a pair with its masters, or with all its nodes. Along an axis across a plane of symmetry all of them
-    /// have the degree of freedom of the pair's slave, from which the weights cancel: an equation `0 = d`.
-    fn push(
-        &mut self,
-        (pair, held): (&SurfacePair, &[Vector3]),
-        (nodes, dofs): (impl Iterator<Item = Weight>, &NodeDofs),
-        (gap, area): (f64, f64),
-    ) {
-        let dim = self.dim;
-        for (node, weight) in nodes {
-            for axis in 0..dim {
-                let of_row = if is_along(held, axis) { pair.slave } else { node };
-                self.masters.push(dofs.along(axis, of_row, dim));
-            }
-            self.weights.push(weight);
-        }
-        self.master_start.push(self.weights.len());
-        self.end(pair, gap, area);
-    }
-
-    /// Adds a pair as a row by degree of freedom: of images those of their nodes, turned; nothing along what is held.
-    fn push_vectors(
-        &mut self,
-        (pair, held): (&SurfacePair, &[Vector3]),
-        nodes: impl Iterator<Item = Weight>,
-        (images, dofs): (&Images, &NodeDofs),
-    ) {
-        let dim = self.dim;
-        for (node, weight) in nodes {
-            let (node, turn) = images.of(node);
-            for axis in 0..dim {
-                let moved = turn * vector3::axis(axis);
-                // The rest of a direction that is held is rounding, which is not to pass for a motion.
-                let free = without(moved, held).map(|part| without_rounding(part, 1.0));
-                let vector = weight * free;
-                self.masters.push(dofs.along(axis, node, dim));
-                self.vectors.extend(&vector.as_slice()[..dim]);
-            }
-        }
-        self.master_start.push(self.masters.len());
-        self.end(pair, pair.gap, pair.area);
-    }
-
-    fn end(&mut self, pair: &SurfacePair, gap: f64, area: f64) {
-        let dim = self.dim;
-        self.count += 1;
-        self.normals.extend(&pair.normal[..dim]);
-        self.tangents.extend(&pair.tangents[0][..dim]);
-        self.gaps.push(gap);
-        self.areas.push(area);
-    }
-}
-
 impl SurfacePairs {
-    /// The pairs as general rows: of any faces, with gaps and areas as they are.
-    pub fn rows(&self) -> PairArrays {
-        self.rows_on(&NodeDofs::PerNode(self.dim))
-    }
-
-    /// [`Self::rows`] with the host's own degrees of freedom.
-    ///
-    /// # Panics
-    /// If a list of degrees of freedom ends before the last node of a pair.
-    pub fn rows_on(&self, dofs: &NodeDofs) -> PairArrays {
-        let (dim, count) = (self.dim, self.pairs.len());
-        let entries: usize = self.pairs.iter().map(|pair| pair.nodes.len()).sum();
-        let by_dof = self.are_by_dof();
-        let mut arrays = PairArrays {
-            dim,
-            masters: Vec::with_capacity(dim * entries),
-            weights: Vec::with_capacity(if by_dof { 0 } else { entries }),
-            vectors: Vec::with_capacity(if by_dof { dim * dim * entries } else { 0 }),
-            normals: Vec::with_capacity(dim * count),
-            tangents: Vec::with_capacity(dim * count),
-            master_start: vec![0],
-            ..PairArrays::default()
-        };
-        for pair in &self.pairs {
-            let masters = pair.masters().iter().map(|&(node, weight)| (node, -weight));
-            let nodes = pair.slaves().iter().copied().chain(masters);
-            let of_pair = (pair, &self.held(pair.slave)[..]);
-            match by_dof {
-                true => arrays.push_vectors(of_pair, nodes, (&self.images, dofs)),
-                false => arrays.push(of_pair, (nodes, dofs), (pair.gap, pair.area)),
-            }
-        }
-        arrays
-    }
-
-    /// `true` if rows of nodes, with one weight for all axes, do not say it.
-    fn are_by_dof(&self) -> bool {
-        let is_skewed = |pair: &SurfacePair| {
-            let held = self.held(pair.slave);
-            (0..self.dim).filter(|&axis| is_along(&held, axis)).count() < held.len()
-        };
-        let is_by_dof = |pair: &SurfacePair| is_skewed(pair) || pair.has_image(&self.images);
-        self.images.are_of_sector() || self.pairs.iter().any(is_by_dof)
-    }
-
     /// The directions across planes of symmetry on which a node stands.
     pub(super) fn held(&self, node: usize) -> Vec<Vector3> {
         self.held.get(&node).into_iter().flatten().copied().map(Vector3::from).collect()
-    }
-
-    /// The pairs in the form with one slave node, `u_slave - Σ w u`, to which a row is brought by a
-    /// division by the weight `a` of its slave: gap and `d` become `1 / a` times what they were, force
-    /// and area `a` times. `None` if a row has slave nodes to which other pairs belong: the mid nodes of
-    /// quadratic faces, which [`Self::rows`] has too; or if rows are by degree of freedom.
-    pub fn one_slave_each(&self) -> Option<PairArrays> {
-        if self.are_by_dof() {
-            return None;
-        }
-        let dim = self.dim;
-        let mut arrays = PairArrays { dim, master_start: vec![0], ..PairArrays::default() };
-        let belongs = |node| self.pairs.binary_search_by_key(&node, |pair| pair.slave).is_ok();
-        for pair in &self.pairs {
-            let own = pair.slaves().iter().find(|(node, _)| *node == pair.slave)?.1;
-            let others = pair.slaves().iter().filter(|(node, _)| *node != pair.slave);
-            let mut masters: Vec<Weight> = others.map(|(node, a)| (*node, -a / own)).collect();
-            if masters.iter().any(|(node, _)| belongs(*node)) {
-                return None;
-            }
-            masters.extend(pair.masters().iter().map(|(node, weight)| (*node, weight / own)));
-            arrays.slaves.extend(dim * pair.slave..dim * (pair.slave + 1));
-            let dofs = &NodeDofs::PerNode(dim);
-            let held = self.held(pair.slave);
-            let of_rest = (pair.gap / own, pair.area * own);
-            arrays.push((pair, &held), (masters.into_iter(), dofs), of_rest);
-        }
-        Some(arrays)
     }
 
     /// The pairs whose slave node stands on a plane of symmetry.

@@ -102,6 +102,9 @@ pub struct SurfaceSettings {
     /// equal ones the first. A pair whose normal is along it has the axis that is most across its own normal. At
     /// a plane of symmetry one tangent is across the plane: the first is the nearer one.
     pub tangent: Option<[f64; 3]>,
+    /// `true`: rows keep rigid turns of both bodies, whose facets do not fit: those of ties. Forces of the pairs balance in moments too,
+    /// and rows have numbers by degree of freedom.
+    pub keep_turns: bool,
 }
 
 impl SurfaceSettings {
@@ -115,7 +118,7 @@ impl SurfaceSettings {
     ///
     /// # Errors
     /// A search distance that is not positive; a choice for rims where nodes have no cover; bodies of revolution in
-    /// space, or of which a sector is given; a sector that is none.
+    /// space, or of which a sector or turns are given; a sector that is none.
     pub(super) fn checked(&self, dim: usize) -> Result<SurfaceSettings, Error> {
         let refuse = |message: &str| Err(Error::invalid(Argument::Settings, message));
         // Written so that NaN is refused.
@@ -125,6 +128,11 @@ impl SurfaceSettings {
         if self.axisymmetric && dim == 3 {
             return refuse(
                 "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions",
+            );
+        }
+        if self.axisymmetric && self.keep_turns {
+            return refuse(
+                "keep_turns: meridians of a body of revolution do not turn, leave it out",
             );
         }
         if self.axisymmetric && self.sector.is_some() {

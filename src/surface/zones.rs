@@ -10,7 +10,7 @@ use super::sector_boundary::at_images;
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use crate::error::{Argument, Error, Message, index};
-use crate::linalg::vector3::{Vector3, unit, without};
+use crate::linalg::vector3::{Matrix3, Vector3, unit, without};
 
 /// A contact zone: its name, its pairs, and the slave faces that they were made of.
 #[derive(Clone, Copy, Debug)]
@@ -273,14 +273,15 @@ impl SurfacePair {
             ..parts[0].clone()
         };
         // Slaves, then masters.
-        let mut weights: BTreeMap<(bool, usize), f64> = BTreeMap::new();
+        let mut entries: BTreeMap<_, (f64, Matrix3)> = BTreeMap::new();
         for part in &parts {
-            for (at, (node, weight)) in part.nodes.iter().enumerate() {
-                let is_master = at >= part.slave_count;
-                *weights.entry((is_master, *node)).or_default() += part.area / area * weight;
+            for (key, (weight, turn)) in part.entries() {
+                let entry = entries.entry(key).or_default();
+                entry.0 += part.area / area * weight;
+                entry.1 += part.area / area * turn;
             }
         }
-        sum.set_nodes(weights);
+        sum.set_entries(entries);
         sum
     }
 }

@@ -225,7 +225,7 @@ FIELD(signorini_operator, unknowns, int64_t, 56);
 FIELD(signorini_operator, place, int64_t *, 64);
 FIELD(signorini_operator, precondition, signorini_precondition_fn, 72);
 FIELD(signorini_operator, accuracy, double, 80);
-SIZE(signorini_surface_settings, 232);
+SIZE(signorini_surface_settings, 240);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);
 FIELD(signorini_surface_settings, search_distance, double, 8);
@@ -253,6 +253,8 @@ FIELD(signorini_surface_settings, sector_axis, const double *, 152);
 FIELD(signorini_surface_settings, tangent, double[3], 160);
 FIELD(signorini_surface_settings, period, double[3], 184);
 FIELD(signorini_surface_settings, second_period, double[3], 208);
+FIELD(signorini_surface_settings, keep_turns, int32_t, 232);
+FIELD(signorini_surface_settings, reserved, int32_t, 236);
 
 SIZE(signorini_surface_data, 240);
 FIELD(signorini_surface_data, struct_size, uint32_t, 0);

@@ -30,4 +30,5 @@ mod symmetry;
 mod tangents;
 mod ties;
 mod true_shapes;
+mod turns;
 mod zones;

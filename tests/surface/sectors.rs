@@ -200,17 +200,19 @@ fn a_sector_has_the_solution_of_the_whole_body() {
         [(Cells::Boxes, Order::Full), (Cells::Wedges, Order::Linear)],
         [(Cells::Simplices, Order::Linear), (Cells::Simplices, Order::Edges)],
     ] {
-        for (pairing, upper_is_slave) in [
-            (Pairing::DualMortar, true),
-            (Pairing::DualMortar, false),
-            (Pairing::NodeToSurface, true),
+        for (pairing, upper_is_slave, keep_turns) in [
+            (Pairing::DualMortar, true, false),
+            (Pairing::DualMortar, false, false),
+            (Pairing::DualMortar, false, true),
+            (Pairing::NodeToSurface, true, false),
         ] {
-            let context = format!("{kinds:?}, {pairing:?}, {upper_is_slave}");
+            let context = format!("{kinds:?}, {pairing:?}, {upper_is_slave}, {keep_turns}");
             let part = quarter(kinds, [3, 2], rng);
             let solved = |bodies: Bodies, sector: Option<Sector>| {
                 let [lower, upper] = [&bodies.faces[1][..], &bodies.faces[0]];
                 let sides = if upper_is_slave { [upper, lower] } else { [lower, upper] };
-                let settings = SurfaceSettings { pairing, sector, ..SurfaceSettings::default() };
+                let settings =
+                    SurfaceSettings { pairing, sector, keep_turns, ..SurfaceSettings::default() };
                 let found = pair(3, &bodies.nodes, sides, &settings).unwrap();
                 let image = images(&bodies);
                 let (supports, equations) = (BTreeMap::new(), vec![]);

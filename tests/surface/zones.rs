@@ -121,10 +121,15 @@ fn zones_that_cannot_be_joined_are_named() {
 }
 
 /// The slave and the master faces of a zone.
-type Sides = [Vec<Vec<usize>>; 2];
+pub type Sides = [Vec<Vec<usize>>; 2];
 
 /// Pairs zones, and joins them.
-fn paired(dim: usize, nodes: &[[f64; 3]], zones: &[Sides], settings: &SurfaceSettings) -> Joined {
+pub fn paired(
+    dim: usize,
+    nodes: &[[f64; 3]],
+    zones: &[Sides],
+    settings: &SurfaceSettings,
+) -> Joined {
     let found = |[slave, master]: &Sides| pair(dim, nodes, [slave, master], settings).unwrap();
     let contacts: Vec<SurfacePairs> = zones.iter().map(found).collect();
     let lists: Vec<_> = zones.iter().map(|[slave, _]| flat(slave)).collect();
@@ -137,7 +142,7 @@ fn paired(dim: usize, nodes: &[[f64; 3]], zones: &[Sides], settings: &SurfaceSet
 }
 
 /// The faces of each part: those of either side of `x = 1`, or of `y = 1` too.
-fn cut(faces: &[Vec<usize>], nodes: &[[f64; 3]], in_four: bool) -> Vec<Vec<Vec<usize>>> {
+pub fn cut(faces: &[Vec<usize>], nodes: &[[f64; 3]], in_four: bool) -> Vec<Vec<Vec<usize>>> {
     let mut parts = vec![Vec::new(); if in_four { 4 } else { 2 }];
     for face in faces {
         let mean = |axis: usize| -> f64 {

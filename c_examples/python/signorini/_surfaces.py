@@ -80,7 +80,8 @@ master_face: the face that it has passed through; -1: a shape.  sentence: the sa
 def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_distance=0.0,
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
                   axisymmetric=False, slave_shape=None, master_shape=None, fitted=False,
-                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None, tangent=None):
+                  close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None, tangent=None,
+                  keep_turns=False):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -113,14 +114,15 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     interference.
     tangent: in 3D the direction of first tangents, (3,), as nearly as the tangent plane of each pair allows, from which the
     angle of orthotropic friction counts; None: the axis most across the normals of all pairs, of equal ones the first.
+    keep_turns: for sides that are tied: rows keep rigid turns of both, also where facets of curved sides do not fit.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
     SignoriniError.
     """
     slave, master = _Faces("slave", slave), _Faces("master", master)
     return SurfacePairs("surface_pair", coordinates, slave, master, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
-                        (slave_shape, master_shape, fitted, close_within, clearance), sector, tangent, time_limit,
-                        progress)
+                        (slave_shape, master_shape, fitted, close_within, clearance), sector, tangent, keep_turns,
+                        time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
@@ -138,7 +140,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
-                        sector, tangent, time_limit, progress)
+                        sector, tangent, False, time_limit, progress)
 
 
 # Of the making of SurfacePairs: what belongs to one process.
@@ -162,20 +164,21 @@ class SurfacePairs(Remade):
     """
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
-                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, tangent, time_limit, progress):
+                 dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, tangent, keep_turns,
+                 time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         # Without what watches the pairing: neither time_limit nor progress.
         self._made_of = (make, self._coordinates, slave, other, *copy.deepcopy((
             pairing, search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector,
-            tangent)))
+            tangent, keep_turns)))
         self.slave_faces = self.drawn_faces = slave.lists
         self.coordinates = self._coordinates
         settings = sized(
             SurfaceSettings, pairing=chosen("pairing", Pairing, pairing),
             search_distance=number("search_distance", search_distance), dofs_per_node=dofs_per_node,
             normals=chosen("normals", Normals, normals), rims=chosen("rims", Rims, rims),
-            axisymmetric=bool(axisymmetric), time_limit=number("time_limit", time_limit),
+            axisymmetric=bool(axisymmetric), keep_turns=bool(keep_turns), time_limit=number("time_limit", time_limit),
         )
         *shapes, settings.fitted, close_within, clearance = gaps
         settings.close_within, settings.clearance = number("close_within", close_within), number("clearance", clearance)
