@@ -56,6 +56,7 @@ extern "C" {
  * over the master, weighted by the node's area there; around a sharp edge other faces do not turn
  * it. Nodes against surfaces: opposite to the normal of the nearest master face, at the foot of
  * the perpendicular on it; above an edge without one, of the face that the averaged normal meets.
+ * Of faces that are equally near it is the mean, where that normal meets them.
  * The choice does not change which nodes have pairs.
  */
 #define SIGNORINI_NORMALS_FACES 1
@@ -238,8 +239,8 @@ struct signorini_surface_settings {
     /** The way along a second line, of a body that repeats along two; default 0, 0, 0: none. */
     double second_period[3];
     /**
-     * Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets of
-     * curved sides do not fit. Forces of pairs then balance in moments too, and rows have
+     * Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets
+     * of curved sides do not fit. Forces of pairs then balance in moments too, and rows have
      * row_vectors, not row_weights. Default 0.
      */
     int32_t keep_turns;

@@ -26,6 +26,7 @@ pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// over the master, weighted by the node's area there; around a sharp edge other faces do not turn
 /// it. Nodes against surfaces: opposite to the normal of the nearest master face, at the foot of
 /// the perpendicular on it; above an edge without one, of the face that the averaged normal meets.
+/// Of faces that are equally near it is the mean, where that normal meets them.
 /// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
@@ -132,8 +133,8 @@ pub struct SignoriniSurfaceSettings {
     pub period: [f64; 3],
     /// The way along a second line, of a body that repeats along two; default 0, 0, 0: none.
     pub second_period: [f64; 3],
-    /// Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets of
-    /// curved sides do not fit. Forces of pairs then balance in moments too, and rows have
+    /// Nonzero, for surfaces that are tied: rows keep rigid turns of both bodies, also where facets
+    /// of curved sides do not fit. Forces of pairs then balance in moments too, and rows have
     /// row_vectors, not row_weights. Default 0.
     pub keep_turns: i32,
     /// 0.

@@ -14,9 +14,9 @@ use crate::linalg::vector3::Vector3;
 /// than 78 degrees, and the projection of one on the other keeps a fifth of its area.
 const OPPOSED: f64 = -0.2;
 
-/// Between neighbours whose normals have a cosine below this is an edge of the body: coarse arcs turn by less than 60 degrees
-/// from face to face.
-const BEND: f64 = 0.5;
+/// Between neighbours whose normals have a cosine below this is an edge of the body: coarse arcs turn by at most 60 degrees from face to
+/// face. Hexagons turn by that, which rounding must not divide.
+const BEND: f64 = 0.45;
 
 /// Faces look the same way if the cosine between their normals is above this. Of two meshes of one curved surface, and
 /// of neighbours on it, normals differ by the angle of a face, say 30 degrees on coarse ones.

@@ -84,7 +84,32 @@ fn meets(
         let (at, outward) = foot(&face, x)?;
         MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
     });
-    Some(nearest(perpendicular).unwrap_or(along_ray))
+    let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
+    Some(nearest_foot(master, perpendicular.collect(), rounding, along_ray))
+}
+
+/// The nearest foot of a perpendicular, or what the ray meets where there is none. Of several that are equally near none is chosen by
+/// the order of faces: the pair has the mean of their normals, and the point that the ray meets if they are apart.
+fn nearest_foot(
+    master: &Side<'_>,
+    mut feet: Vec<MasterPoint>,
+    rounding: f64,
+    along_ray: MasterPoint,
+) -> MasterPoint {
+    let least = feet.iter().map(|foot| foot.distance).fold(f64::INFINITY, f64::min);
+    feet.retain(|foot| foot.distance <= (1.0 + BEYOND) * least + rounding);
+    let place = |foot: &MasterPoint| master.point(&foot.weights);
+    let Some(first) = feet.first() else { return along_ray };
+    let are_one = feet.iter().all(|foot| (place(foot) - place(first)).norm() <= rounding);
+    let mut normals: Vec<Vector3> = Vec::new();
+    for MasterPoint { normal, .. } in &feet {
+        if !normals.iter().any(|known| (known - normal).norm() <= BEYOND) {
+            normals.push(*normal);
+        }
+    }
+    let normal = unit(normals.iter().sum()).unwrap_or(first.normal);
+    let point = if are_one { feet.swap_remove(0) } else { along_ray };
+    MasterPoint { normal, ..point }
 }
 
 /// The pairs of two sides.

@@ -40,15 +40,17 @@ pub(super) fn cancel(node: usize) -> Error {
 }
 
 /// The point of a face, or of its continuation, from which the perpendicular leads to `x`: local coordinates
-/// and the face's unit normal there. `None` if steps along normals do not lead to one.
+/// and the face's unit normal there. `None` if steps along normals do not lead to one. Normals have the rounding of coordinates
+/// beside the size of the face.
 pub(super) fn foot(face: &Face<'_>, x: Vector3) -> Option<(Local, Vector3)> {
     let mut normal = face.middle_normal();
+    let rounding = ROUNDING * (1.0 + x.amax() / face.size());
     for _ in 0..MOST_STEPS {
         let at = Plane::new(face.kind.dim(), x, normal).flatten(face).local([0.0; 2])?;
         let next = unit(face.outward(at))?;
         let change = (next - normal).norm();
         normal = next;
-        if change <= ROUNDING {
+        if change <= rounding {
             return Some((at, normal));
         }
     }

@@ -53,7 +53,7 @@ impl WithImages {
         opposite: Option<Opposite<'_, '_>>,
         watch: &mut Watch<'_, '_>,
     ) -> Result<Option<WithImages>, Error> {
-        if settings.sector.is_none() && settings.symmetry.is_empty() {
+        if slave.count() == 0 || settings.sector.is_none() && settings.symmetry.is_empty() {
             return Ok(None);
         }
         let sector = settings.sector;

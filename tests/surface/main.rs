@@ -29,6 +29,7 @@ mod steps;
 mod symmetry;
 mod tangents;
 mod ties;
+mod ties_of_choice;
 mod true_shapes;
 mod turns;
 mod zones;
