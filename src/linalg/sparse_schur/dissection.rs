@@ -3,8 +3,10 @@
 //! A piece of the graph is parted by a separator ([`super::separator`]), which stands behind its parts in the order, and so
 //! are these. Small pieces are ordered by minimum degree.
 
+use std::mem::take;
+
 use super::factor_progress::{FactorProgress, Failure};
-use super::links::Links;
+use super::lists::Lists;
 use super::minimum_degree::minimum_degree;
 use super::separator::separator;
 
@@ -13,7 +15,7 @@ const SMALL: usize = 300;
 
 /// A connected part of the graph. Vertices ascend, and so do the neighbours of each.
 struct Piece {
-    links: Links,
+    links: Lists,
     /// Its vertices in the whole graph.
     vertex: Vec<usize>,
 }
@@ -22,8 +24,8 @@ struct Piece {
 ///
 /// # Errors
 /// No memory, or `progress`, which is asked before each piece and between the levels of one, ends it.
-pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<usize>, Failure> {
-    let vertex = (0..links.vertices()).collect();
+pub fn dissected(links: Lists, progress: &mut FactorProgress<'_>) -> Result<Vec<usize>, Failure> {
+    let vertex = (0..links.count()).collect();
     let mut open = Piece { links, vertex }.without(&[]);
     // From the last vertex of the order to the first: a separator stands behind its parts.
     let mut backwards = Vec::new();
@@ -34,7 +36,7 @@ pub fn dissected(links: Links, progress: &mut FactorProgress<'_>) -> Result<Vec<
                 open.extend(piece.without(&separator));
                 separator
             }
-            None => minimum_degree(&piece.links.start, &piece.links.neighbour)?,
+            None => minimum_degree(&piece.links)?,
         };
         backwards.extend(last.iter().rev().map(|&v| piece.vertex[v]));
     }
@@ -56,24 +58,40 @@ impl Piece {
         let mut place = vec![usize::MAX; self.vertex.len()];
         let part = |part: Vec<usize>| {
             (0..).zip(&part).for_each(|(k, &v)| place[v] = k);
-            let (mut start, mut neighbour) = (vec![0], Vec::new());
-            for &v in &part {
-                // The neighbours of a part are its own and those of the separator.
-                let own = self.links.neighbours(v).map(|w| place[w]);
-                neighbour.extend(own.filter(|&w| w < usize::MAX));
-                start.push(neighbour.len());
-            }
+            // The neighbours of a part are its own and those of the separator.
+            let own = |&v: &usize| self.links.of(v).map(|w| place[w]).filter(|&w| w < usize::MAX);
+            let links = part.iter().map(own).collect();
             part.iter().for_each(|&v| place[v] = usize::MAX);
             let vertex = part.iter().map(|&v| self.vertex[v]).collect();
-            Piece { links: Links { start, neighbour }, vertex }
+            Piece { links, vertex }
         };
-        self.links.parts(separator).into_iter().map(part).collect()
+        parts(&self.links, separator).into_iter().map(part).collect()
     }
+}
+
+/// The connected parts of the vertices that are not in the separator, each ascending.
+fn parts(links: &Lists, separator: &[usize]) -> Vec<Vec<usize>> {
+    let mut is_open = vec![true; links.count()];
+    separator.iter().for_each(|&v| is_open[v] = false);
+    let mut parts = Vec::new();
+    for from in 0..links.count() {
+        if !take(&mut is_open[from]) {
+            continue;
+        }
+        let (mut part, mut done) = (vec![from], 0);
+        while let Some(&v) = part.get(done) {
+            done += 1;
+            part.extend(links.of(v).filter(|&w| take(&mut is_open[w])));
+        }
+        part.sort_unstable();
+        parts.push(part);
+    }
+    parts
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Links, Piece, SMALL, dissected};
+    use super::{Lists, Piece, SMALL, dissected};
     use crate::linalg::sparse_schur::factor_progress::Failure;
     use crate::linalg::sparse_schur::separator::tests::strip;
 
@@ -82,7 +100,7 @@ mod tests {
     #[test]
     fn a_strip_is_cut_across() {
         let links = strip(500, 7);
-        let vertex = (0..).take(links.vertices()).collect();
+        let vertex = (0..).take(links.count()).collect();
         let strip = Piece { links, vertex };
         let found = strip.separator(&mut |_| Ok(())).unwrap();
         let separator = found.expect("a strip has separators");
@@ -93,11 +111,11 @@ mod tests {
             assert!(3 * part.vertex.len() >= strip.vertex.len(), "{}", part.vertex.len());
         }
         // No edge leads from one part to the other: all that a part lacks are edges to the separator.
-        let kept: usize = parts.iter().map(|part| part.links.neighbour.len()).sum();
+        let kept: usize = parts.iter().map(|part| part.links.entries.len()).sum();
         let is_cut = |v: usize| separator.contains(&v);
         let inside = (0..strip.vertex.len()).filter(|&v| !is_cut(v));
         let expected: usize =
-            inside.map(|v| strip.links.neighbours(v).filter(|&w| !is_cut(w)).count()).sum();
+            inside.map(|v| strip.links.of(v).filter(|&w| !is_cut(w)).count()).sum();
         assert_eq!(kept, expected);
     }
 
@@ -124,13 +142,11 @@ mod tests {
     #[test]
     fn a_graph_of_several_parts_is_ordered_whole() {
         let one = strip(SMALL / 7 + 1, 7);
-        let shift = one.vertices();
-        let (mut start, mut neighbour) = (one.start.clone(), one.neighbour.clone());
-        start.extend(one.start[1..].iter().map(|k| k + one.neighbour.len()));
-        neighbour.extend(one.neighbour.iter().map(|v| v + shift));
-        // And two vertices without neighbours.
-        start.extend([neighbour.len(); 2]);
-        let mut order = dissected(Links { start, neighbour }, &mut |_| Ok(())).unwrap();
+        let shift = one.count();
+        let mut links = one.clone();
+        (0..shift).for_each(|v| _ = links.push(one.of(v).map(|w| w + shift)));
+        (0..2).for_each(|_| _ = links.push([]));
+        let mut order = dissected(links, &mut |_| Ok(())).unwrap();
         order.sort_unstable();
         assert!(order.into_iter().eq(0..2 * shift + 2));
     }

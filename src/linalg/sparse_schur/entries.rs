@@ -6,7 +6,7 @@ use faer::perm::PermRef;
 use faer::sparse::utils::{permute_self_adjoint_scratch, permute_self_adjoint_to_unsorted};
 
 use super::factor_progress::Failure;
-use super::graph::filled;
+use super::lists::filled;
 use super::structure::Structure;
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 

@@ -2,22 +2,23 @@
 //! of one node of a mesh are one vertex, so that orderings and symbolic factorisations have a quarter or a
 //! ninth of the entries.
 
+use std::iter::once;
+use std::mem::replace;
+
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::factor_progress::{FactorProgress, Failure};
-use super::links::Links;
+use super::lists::{Lists, filled, reserved};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
-use crate::shortage;
 
 /// Vertices with their unknowns and neighbours. First stand the vertices that are eliminated.
 pub struct Graph {
     /// Number of vertices that are eliminated.
     pub inner: usize,
     /// Neighbours, without the vertex itself.
-    links: Links,
-    /// Where the unknowns of each vertex begin.
-    member_start: Vec<usize>,
-    member: Vec<usize>,
+    pub links: Lists,
+    /// Unknowns of each vertex, ascending.
+    pub members: Lists,
 }
 
 impl Graph {
@@ -33,49 +34,24 @@ impl Graph {
     ) -> Result<Self, Failure> {
         let unknowns = Adjacency::of_unknowns(lower)?;
         progress(0.0)?;
-        let (vertex, member_start, member) = together(&unknowns, eliminated)?;
+        let (vertex, members) = together(&unknowns, eliminated)?;
         progress(0.0)?;
-        let inner = member_start.partition_point(|&start| start < eliminated);
-        let count = member_start.len() - 1;
-        let mut start = reserved(count + 1)?;
-        let mut neighbour = Vec::new();
+        let inner = members.start.partition_point(|&start| start < eliminated);
+        let count = members.count();
+        let mut links = Lists::reserved(count, 0)?;
         // The vertex that has counted a neighbour last.
         let mut seen = filled(count, usize::MAX)?;
-        start.push(0);
         for v in 0..count {
-            let begin = neighbour.len();
             seen[v] = v;
-            for i in unknowns.of(member[member_start[v]]) {
-                let other = vertex[i];
-                if seen[other] != v {
-                    seen[other] = v;
-                    neighbour.push(other);
-                }
-            }
-            neighbour[begin..].sort_unstable();
-            start.push(neighbour.len());
+            let others = unknowns.of(members.entries[members.start[v]]).map(|i| vertex[i]);
+            links.push(others.filter(|&other| replace(&mut seen[other], v) != v)).sort_unstable();
         }
-        Ok(Graph { inner, links: Links { start, neighbour }, member_start, member })
+        Ok(Graph { inner, links, members })
     }
 
     /// Number of vertices.
     pub fn vertices(&self) -> usize {
-        self.links.vertices()
-    }
-
-    /// Neighbours of a vertex, ascending.
-    pub fn neighbours(&self, vertex: usize) -> impl Iterator<Item = usize> {
-        self.links.neighbours(vertex)
-    }
-
-    /// Number of pairs of neighbours, each counted twice.
-    pub fn entries(&self) -> usize {
-        self.links.neighbour.len()
-    }
-
-    /// Unknowns of a vertex, ascending.
-    pub fn members(&self, vertex: usize) -> &[usize] {
-        &self.member[self.member_start[vertex]..self.member_start[vertex + 1]]
+        self.links.count()
     }
 }
 
@@ -119,47 +95,28 @@ impl<'l> Adjacency<'l> {
     }
 }
 
-/// The vertex of each unknown, and the unknowns of each vertex: its begins, and the unknowns.
-type Together = (Vec<usize>, Vec<usize>, Vec<usize>);
-
-fn together(unknowns: &Adjacency<'_>, eliminated: usize) -> Result<Together, OutOfMemory> {
+/// The vertex of each unknown, and the unknowns of each vertex.
+fn together(
+    unknowns: &Adjacency<'_>,
+    eliminated: usize,
+) -> Result<(Vec<usize>, Lists), OutOfMemory> {
     let size = unknowns.unknowns();
     let mut signature = reserved(size)?;
     signature.extend((0..size).map(|i| unknowns.signature(i)));
     let mut vertex = filled(size, usize::MAX)?;
-    let (mut member_start, mut member) = (reserved(size + 1)?, reserved(size)?);
-    member_start.push(0);
+    let mut members = Lists::reserved(size, size)?;
     for i in 0..size {
         if vertex[i] != usize::MAX {
             continue;
         }
-        let new = member_start.len() - 1;
-        vertex[i] = new;
-        member.push(i);
-        for j in unknowns.of(i).filter(|&j| j > i) {
-            let same_side = (i < eliminated) == (j < eliminated);
-            let free = vertex[j] == usize::MAX && signature[i] == signature[j];
-            if same_side && free && unknowns.alike(i, j) {
-                vertex[j] = new;
-                member.push(j);
-            }
-        }
-        member_start.push(member.len());
+        let joins = |j: &usize| {
+            let same_side = (i < eliminated) == (*j < eliminated);
+            let free = vertex[*j] == usize::MAX && signature[i] == signature[*j];
+            *j > i && same_side && free && unknowns.alike(i, *j)
+        };
+        let new = members.count();
+        let own = members.push(once(i).chain(unknowns.of(i).filter(joins)));
+        own.iter().for_each(|&j| vertex[j] = new);
     }
-    Ok((vertex, member_start, member))
-}
-
-/// An empty vector with room.
-pub fn reserved<T>(length: usize) -> Result<Vec<T>, OutOfMemory> {
-    let mut vector = Vec::new();
-    vector.try_reserve_exact(length).map_err(|_| OutOfMemory)?;
-    // The reserve of a call is not for arrays that can be refused.
-    if shortage::is_noted() { Err(OutOfMemory) } else { Ok(vector) }
-}
-
-/// A vector of equal entries.
-pub fn filled<T: Clone>(length: usize, value: T) -> Result<Vec<T>, OutOfMemory> {
-    let mut vector = reserved(length)?;
-    vector.resize(length, value);
-    Ok(vector)
+    Ok((vertex, members))
 }

@@ -10,7 +10,7 @@ mod dissection;
 mod entries;
 mod factor_progress;
 mod graph;
-mod links;
+mod lists;
 mod minimum_degree;
 mod numeric;
 mod order;

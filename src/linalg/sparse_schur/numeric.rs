@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use super::entries::Entries;
 use super::factor_progress::{FactorProgress, Failure};
-use super::graph::filled;
+use super::lists::filled;
 use super::panel::{Before, Source, Weakest, weaker};
 use super::panel_assembly::{by_all_threads, by_one_thread};
 use super::parallel::{Parallel, Workspace, locked};

@@ -13,8 +13,8 @@ use faer::sparse::linalg::qr::{postorder, postorder_scratch};
 
 use super::dissection::dissected;
 use super::factor_progress::{FactorProgress, Failure};
-use super::graph::{Graph, filled, reserved};
-use super::links::Links;
+use super::graph::Graph;
+use super::lists::{Lists, filled};
 use super::minimum_degree::minimum_degree;
 use crate::linalg::sparse_matrix::OutOfMemory;
 
@@ -40,7 +40,7 @@ pub fn chosen(
 ) -> Result<Vec<usize>, Failure> {
     if let Some(rank) = given {
         let mut order: Vec<usize> = (0..graph.inner).collect();
-        let first = |v: &usize| graph.members(*v).iter().map(|&i| rank[i]).min();
+        let first = |v: &usize| graph.members.of(*v).map(|i| rank[i]).min();
         order.sort_by_key(first);
         return Ok(examined(graph, &order)?.0);
     }
@@ -62,37 +62,24 @@ fn with_clique(graph: &Graph) -> Result<Vec<usize>, OutOfMemory> {
     let share = kept.div_ceil(LARGEST_CLIQUE).max(1);
     let size = inner + kept.div_ceil(share);
     let place = |v: usize| if v < inner { v } else { inner + (v - inner) / share };
-    let (mut start, mut row) = (reserved(size + 1)?, reserved(graph.entries())?);
-    start.push(0);
-    for v in 0..inner {
-        row.extend(graph.neighbours(v).map(place).filter(|&w| w > v));
-        start.push(row.len());
-    }
-    for k in inner..size {
-        row.extend(k + 1..size);
-        start.push(row.len());
-    }
-    let mut order = minimum_degree(&start, &row)?;
+    let mut links = Lists::reserved(size, graph.links.entries.len())?;
+    (0..inner).for_each(|v| _ = links.push(graph.links.of(v).map(place).filter(|&w| w > v)));
+    (inner..size).for_each(|k| _ = links.push(k + 1..size));
+    let mut order = minimum_degree(&links)?;
     order.retain(|&v| v < inner);
     Ok(order)
 }
 
 /// The graph of the inner vertices.
-fn inner_links(graph: &Graph) -> Links {
-    let (mut start, mut neighbour) = (vec![0], Vec::new());
-    for v in 0..graph.inner {
-        neighbour.extend(graph.neighbours(v).filter(|&w| w < graph.inner));
-        start.push(neighbour.len());
-    }
-    Links { start, neighbour }
+fn inner_links(graph: &Graph) -> Lists {
+    (0..graph.inner).map(|v| graph.links.of(v).filter(|&w| w < graph.inner)).collect()
 }
 
 /// An order with the same fill in which the columns of each supernode stand together, and about how many
 /// operations its factorisation takes.
 fn examined(graph: &Graph, order: &[usize]) -> Result<(Vec<usize>, f64), OutOfMemory> {
     let pattern = pattern(graph, order)?;
-    let unknowns: usize = (0..graph.inner).map(|v| graph.members(v).len()).sum();
-    let size = unknowns as f64 / graph.inner.max(1) as f64;
+    let size = graph.members.start[graph.inner] as f64 / graph.inner.max(1) as f64;
     let mut post = filled(graph.vertices(), 0)?;
     of_tree(&pattern, postorder_scratch::<usize>(post.len()), |tree, counts, stack| {
         let squares = counts[..graph.inner].iter().map(|&count| (count as f64).powi(2));
@@ -107,16 +94,12 @@ pub fn pattern(graph: &Graph, order: &[usize]) -> Result<Pattern, OutOfMemory> {
     let size = graph.vertices();
     let mut place: Vec<usize> = (0..size).collect();
     order.iter().enumerate().for_each(|(k, &v)| place[v] = k);
-    let (mut start, mut row) = (reserved(size + 1)?, reserved(graph.entries() / 2)?);
-    start.push(0);
+    let mut rows = Lists::reserved(size, graph.links.entries.len() / 2)?;
     for k in 0..size {
-        let vertex = order.get(k).copied().unwrap_or(k);
-        let begin = row.len();
-        row.extend(graph.neighbours(vertex).map(|w| place[w]).filter(|&w| w < k));
-        row[begin..].sort_unstable();
-        start.push(row.len());
+        let own = graph.links.of(order.get(k).copied().unwrap_or(k)).map(|w| place[w]);
+        rows.push(own.filter(|&w| w < k)).sort_unstable();
     }
-    Ok(SymbolicSparseColMat::new_checked(size, size, start, None, row))
+    Ok(SymbolicSparseColMat::new_checked(size, size, rows.start, None, rows.entries))
 }
 
 /// The answer of `ask` to the elimination tree and the length of each column of the factor; with room for `scratch`.
@@ -162,7 +145,7 @@ mod tests {
             let (matrix, eliminated) = cube(4, dofs);
             let graph = Graph::new(&matrix, eliminated, &mut |_| Ok(())).unwrap();
             assert_eq!((graph.vertices(), graph.inner), (64, 48));
-            assert!((0..64).all(|v| graph.members(v).len() == dofs));
+            assert!((0..64).all(|v| graph.members.of(v).count() == dofs));
         }
     }
 

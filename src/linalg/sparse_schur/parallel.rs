@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use faer::dyn_stack::MemBuffer;
 
 use super::factor_progress::{FactorProgress, Failure};
-use super::graph::filled;
+use super::lists::filled;
 use super::structure::{PANEL, Structure};
 use crate::linalg::dense;
 use crate::linalg::watched::WORK;

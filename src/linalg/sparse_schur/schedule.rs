@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::graph::{filled, reserved};
+use super::lists::{filled, reserved};
 use super::structure::Structure;
 use crate::linalg::sparse_matrix::OutOfMemory;
 

@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
 use super::factor_progress::{FactorProgress, Failure};
-use super::links::Links;
+use super::lists::Lists;
 
 /// Halves that grow in the smallest graph, and how many of their separators are carried back.
 const STARTS: usize = 16;
@@ -22,25 +22,25 @@ const CARRIED: usize = 3;
 /// # Errors
 /// `progress` ends it.
 pub fn separator(
-    links: &Links,
+    links: &Lists,
     small: usize,
     progress: &mut FactorProgress<'_>,
 ) -> Result<Option<Vec<usize>>, Failure> {
     let mut graph = Level::finest(links, small, progress)?;
     let mut finer: Vec<(Level<'_>, Vec<usize>)> = Vec::new();
-    while graph.links.vertices() >= small {
+    while graph.links.count() >= small {
         progress(0.0)?;
         let (coarse, one) = graph.coarse();
         // A graph in which few vertices find another one becomes no smaller.
-        let least = graph.links.vertices() / 10;
-        if coarse.links.vertices() + least > graph.links.vertices() {
+        let least = graph.links.count() / 10;
+        if coarse.links.count() + least > graph.links.count() {
             break;
         }
         finer.push((std::mem::replace(&mut graph, coarse), one));
     }
     let mut grown = Vec::new();
     for start in 0..STARTS {
-        let from = start * graph.links.vertices() / STARTS;
+        let from = start * graph.links.count() / STARTS;
         grown.push(Sides::refined(&graph, graph.halves(from), progress)?);
     }
     grown.sort_by(|one, other| one.badness().total_cmp(&other.badness()));
@@ -66,7 +66,7 @@ const BETWEEN: usize = 2;
 
 /// A graph whose vertices stand for several of the first one.
 struct Level<'l> {
-    links: Cow<'l, Links>,
+    links: Cow<'l, Lists>,
     /// The weight of the tie to each neighbour: the sum over the edges of the first graph.
     strength: Vec<i32>,
     /// Vertices of the first graph.
@@ -77,37 +77,37 @@ impl<'l> Level<'l> {
     /// The first graph. Instead of one edge, an edge counts as the ways from end to end over at most one other vertex: what
     /// becomes one has its neighbours in common, and a mesh stays one.
     fn finest(
-        links: &'l Links,
+        links: &'l Lists,
         small: usize,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
-        let mut strength = vec![1; links.neighbour.len()];
+        let mut strength = vec![1; links.entries.len()];
         let mut next = links.start.clone();
         // The last vertex whose neighbour this one is.
-        let mut beside = vec![usize::MAX; links.vertices()];
-        for v in 0..links.vertices() {
+        let mut beside = vec![usize::MAX; links.count()];
+        for v in 0..links.count() {
             if v.is_multiple_of(small) {
                 progress(0.0)?;
             }
-            links.neighbours(v).for_each(|w| beside[w] = v);
-            for (k, w) in links.range(v).zip(links.neighbours(v)).filter(|&(_, w)| w > v) {
-                strength[k] += links.neighbours(w).filter(|&x| beside[x] == v).count() as i32;
+            links.of(v).for_each(|w| beside[w] = v);
+            for (k, w) in links.range(v).zip(links.of(v)).filter(|&(_, w)| w > v) {
+                strength[k] += links.of(w).filter(|&x| beside[x] == v).count() as i32;
                 // Vertices ascend, so that each is the next neighbour of those above it.
                 strength[next[w]] = strength[k];
                 next[w] += 1;
             }
         }
-        let weight = vec![1; links.vertices()];
+        let weight = vec![1; links.count()];
         Ok(Level { links: Cow::Borrowed(links), strength, weight })
     }
 
     fn edges(&self, v: usize) -> impl Iterator<Item = (usize, i32)> {
-        self.links.neighbours(v).zip(self.strength[self.links.range(v)].iter().copied())
+        self.links.of(v).zip(self.strength[self.links.range(v)].iter().copied())
     }
 
     /// The graph of twos, and the vertex that each one became.
     fn coarse(&self) -> (Level<'static>, Vec<usize>) {
-        let size = self.links.vertices();
+        let size = self.links.count();
         let (mut one, mut twos) = (vec![usize::MAX; size], Vec::new());
         for v in 0..size {
             if one[v] < usize::MAX {
@@ -138,14 +138,14 @@ impl<'l> Level<'l> {
             start.push(edges.len());
             weight.push(two.iter().flatten().map(|&v| self.weight[v]).sum());
         }
-        let (neighbour, strength) = edges.into_iter().unzip();
-        (Level { links: Cow::Owned(Links { start, neighbour }), strength, weight }, one)
+        let (entries, strength) = edges.into_iter().unzip();
+        (Level { links: Cow::Owned(Lists { start, entries }), strength, weight }, one)
     }
 
     /// The marks of a half that grows from a vertex, neighbours first, of a separator beside it, and of the others.
     fn halves(&self, from: usize) -> Vec<usize> {
         let half = self.weight.iter().sum::<i64>() / 2;
-        let mut side = vec![1; self.links.vertices()];
+        let mut side = vec![1; self.links.count()];
         let (mut beside, mut size) = (VecDeque::from([from]), 0);
         side[from] = BETWEEN;
         while size < half
@@ -153,7 +153,7 @@ impl<'l> Level<'l> {
         {
             side[v] = 0;
             size += self.weight[v];
-            for w in self.links.neighbours(v) {
+            for w in self.links.of(v) {
                 if side[w] == 1 {
                     side[w] = BETWEEN;
                     beside.push_back(w);
@@ -280,18 +280,18 @@ impl<'g> Sides<'g> {
         self.changes.push((v, BETWEEN));
         self.mark(v, to);
         self.has_left[v] = true;
-        for w in graph.links.neighbours(v) {
+        for w in graph.links.of(v) {
             if self.side[w] == BETWEEN {
                 self.beside[w][to] += graph.weight[v];
                 self.queue(w, 1 - to);
             }
         }
-        for w in graph.links.neighbours(v) {
+        for w in graph.links.of(v) {
             if self.side[w] == 1 - to {
                 self.changes.push((w, 1 - to));
                 self.mark(w, BETWEEN);
                 self.enter(w);
-                for x in graph.links.neighbours(w).filter(|&x| x != w) {
+                for x in graph.links.of(w).filter(|&x| x != w) {
                     if self.side[x] == BETWEEN {
                         self.beside[x][1 - to] -= graph.weight[w];
                         self.queue(x, to);
@@ -304,7 +304,7 @@ impl<'g> Sides<'g> {
     /// A vertex is in the separator.
     fn enter(&mut self, v: usize) {
         let mut beside = [0; 3];
-        for w in self.graph.links.neighbours(v) {
+        for w in self.graph.links.of(v) {
             beside[self.side[w]] += self.graph.weight[w];
         }
         self.beside[v] = [beside[0], beside[1]];

@@ -5,7 +5,8 @@ use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::supernodal;
 
 use super::factor_progress::{FactorProgress, Failure};
-use super::graph::{Graph, reserved};
+use super::graph::Graph;
+use super::lists::{Lists, reserved};
 use super::order::{Pattern, chosen, of_tree, pattern};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory};
 
@@ -57,14 +58,9 @@ impl Structure {
         progress(0.0)?;
         let symbolic = symbolic(&pattern)?;
         progress(0.0)?;
-        // Places of the unknowns of each vertex.
-        let mut places = reserved(graph.vertices() + 1)?;
-        let mut unknowns = reserved(lower.ncols())?;
-        places.push(0);
+        let mut unknowns = Lists::reserved(graph.vertices(), lower.ncols())?;
         for k in 0..graph.vertices() {
-            let vertex = order.get(k).copied().unwrap_or(k);
-            unknowns.extend_from_slice(graph.members(vertex));
-            places.push(unknowns.len());
+            unknowns.push(graph.members.of(order.get(k).copied().unwrap_or(k)));
         }
         let mut structure = Structure {
             size: lower.ncols(),
@@ -83,15 +79,15 @@ impl Structure {
             let last = end.min(graph.inner);
             let vertices = (last..end).chain(symbolic.supernode(s).pattern().iter().copied());
             let mut rows = Vec::new();
-            for place in vertices.flat_map(|k| places[k]..places[k + 1]) {
+            for place in vertices.flat_map(|k| unknowns.range(k)) {
                 // Kept unknowns stand where they are, whatever vertices they have.
-                rows.push(if place < eliminated { place } else { unknowns[place] });
+                rows.push(if place < eliminated { place } else { unknowns.entries[place] });
             }
             rows.sort_unstable();
-            structure.push_supernode(places[last], &rows)?;
+            structure.push_supernode(unknowns.start[last], &rows)?;
         }
-        unknowns[eliminated..].iter_mut().zip(eliminated..).for_each(|(place, i)| *place = i);
-        structure.order = unknowns;
+        structure.order = unknowns.entries;
+        (eliminated..structure.size).for_each(|i| structure.order[i] = i);
         Ok(structure)
     }
 

@@ -2,25 +2,23 @@
 
 use std::collections::BTreeSet;
 
-use super::{BETWEEN, Level, Links, Sides, separator};
+use super::{BETWEEN, Level, Lists, Sides, separator};
 use fastrand::Rng;
 
 /// A strip of `length` x `width` nodes, each beside the eight around it.
-pub fn strip(length: usize, width: usize) -> Links {
-    let (mut start, mut neighbour) = (vec![0], Vec::new());
-    for v in 0..length * width {
-        let near = |w: &usize| {
+pub fn strip(length: usize, width: usize) -> Lists {
+    let beside = |v: usize| {
+        let near = move |w: &usize| {
             (w / width).abs_diff(v / width) <= 1 && (w % width).abs_diff(v % width) <= 1
         };
         let around = v.saturating_sub(2 * width)..(v + 2 * width).min(length * width);
-        neighbour.extend(around.filter(near).filter(|&w| w != v));
-        start.push(neighbour.len());
-    }
-    Links { start, neighbour }
+        around.filter(near).filter(move |&w| w != v)
+    };
+    (0..length * width).map(beside).collect()
 }
 
 /// A connected graph by chance: a path with more edges.
-fn random(rng: &mut Rng, size: usize, more: usize) -> Links {
+fn random(rng: &mut Rng, size: usize, more: usize) -> Lists {
     let mut edges: Vec<_> = (1..size).map(|v| (v - 1, v)).collect();
     edges.extend((0..more).map(|_| (rng.usize(0..size), rng.usize(0..size))));
     let mut beside = vec![BTreeSet::new(); size];
@@ -28,15 +26,10 @@ fn random(rng: &mut Rng, size: usize, more: usize) -> Links {
         beside[v].insert(w);
         beside[w].insert(v);
     }
-    let (mut start, mut neighbour) = (vec![0], Vec::new());
-    for beside in beside {
-        neighbour.extend(beside);
-        start.push(neighbour.len());
-    }
-    Links { start, neighbour }
+    beside.into_iter().collect()
 }
 
-fn finest(links: &Links) -> Level<'_> {
+fn finest(links: &Lists) -> Level<'_> {
     Level::finest(links, usize::MAX, &mut |_| Ok(())).unwrap()
 }
 
@@ -52,17 +45,17 @@ fn what_is_refined_is_a_separator_that_is_no_worse() {
         let coarse = first.coarse().0;
         for graph in [first, coarse] {
             // A vertex beside the other side is in the separator.
-            let half = graph.links.vertices() / 2;
-            let other = |v: usize| graph.links.neighbours(v).any(|w| (w < half) != (v < half));
+            let half = graph.links.count() / 2;
+            let other = |v: usize| graph.links.of(v).any(|w| (w < half) != (v < half));
             let mark = |v| if other(v) { BETWEEN } else { usize::from(v < half) };
-            let side: Vec<usize> = (0..graph.links.vertices()).map(mark).collect();
+            let side: Vec<usize> = (0..graph.links.count()).map(mark).collect();
             let before = Sides::new(&graph, side.clone()).badness();
             let sides = Sides::refined(&graph, side, &mut |_| Ok(())).unwrap();
             assert!(!(sides.badness() > before), "{} > {before}", sides.badness());
             let mut size = [0; 3];
             for (v, &side) in sides.side.iter().enumerate() {
                 size[side] += graph.weight[v];
-                let across = graph.links.neighbours(v).any(|w| sides.side[w] + side == 1);
+                let across = graph.links.of(v).any(|w| sides.side[w] + side == 1);
                 assert!(!across, "{v}: {:?}", sides.side);
             }
             assert_eq!(sides.size, size);
@@ -81,20 +74,20 @@ fn twos_have_the_weights_and_ties_of_their_parts() {
         let fine = finest(&links);
         for v in 0..size {
             for (w, strength) in fine.edges(v) {
-                let common = links.neighbours(v).filter(|&x| links.neighbours(w).any(|y| y == x));
+                let common = links.of(v).filter(|&x| links.of(w).any(|y| y == x));
                 assert_eq!(strength, 1 + common.count() as i32);
             }
         }
         let (coarse, one) = fine.coarse();
         let of = |k: usize| one.iter().enumerate().filter(move |&(_, &one)| one == k);
-        for k in 0..coarse.links.vertices() {
+        for k in 0..coarse.links.count() {
             let parts: Vec<usize> = of(k).map(|(v, _)| v).collect();
             assert_eq!(coarse.weight[k], parts.len() as i64);
             let tied =
                 |[v, w]: [usize; 2]| fine.edges(v).find(|edge| edge.0 == w).map(|edge| edge.1);
             assert!(parts.len() == 1 || tied([parts[0], parts[1]]).is_some(), "{parts:?}");
-            assert!(coarse.links.neighbours(k).is_sorted());
-            for other in (0..coarse.links.vertices()).filter(|&other| other != k) {
+            assert!(coarse.links.of(k).is_sorted());
+            for other in (0..coarse.links.count()).filter(|&other| other != k) {
                 let pairs = parts.iter().flat_map(|&v| of(other).map(move |(w, _)| [v, w]));
                 let sum: i32 = pairs.filter_map(tied).sum();
                 let told = coarse.edges(k).find(|edge| edge.0 == other).map_or(0, |edge| edge.1);
@@ -108,8 +101,7 @@ fn twos_have_the_weights_and_ties_of_their_parts() {
 #[test]
 fn what_nothing_parts_has_no_separator() {
     let size = 40;
-    let neighbour = (0..size).flat_map(|v| (0..size).filter(move |&w| w != v)).collect();
-    let links = Links { start: (0..=size).map(|v| (size - 1) * v).collect(), neighbour };
+    let links = (0..size).map(|v| (0..size).filter(move |&w| w != v)).collect();
     for small in [size / 2, size + 1] {
         assert_eq!(separator(&links, small, &mut |_| Ok(())).unwrap(), None);
     }
