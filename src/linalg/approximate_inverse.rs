@@ -54,19 +54,21 @@ impl ApproximateInverse {
         bound_of_product(&self.inverse, x)
     }
 
+    /// Bounds on `|R| g` where each entry of `g` is the rounding of inner products of a size, and a doubt.
+    fn rest(&self, sizes: &[f64], doubt: &[f64]) -> Vec<f64> {
+        let rounding = gamma(self.size());
+        let both = sizes.iter().zip(doubt);
+        let wide = both.map(|(size, doubt)| sum_up(product_up(size.abs(), rounding), *doubt));
+        self.bound(&wide.collect::<Vec<_>>())
+    }
+
     /// Bounds on the sizes of the entries of `R g` where each entry of `g` is at most `doubt` from that of
     /// `middle`.
     pub fn image(&self, middle: &[f64], doubt: &[f64]) -> Vec<f64> {
         let n = self.size();
         let computed = self.product(middle);
         // The rounding of the product is below that of n terms of |R| |g|.
-        let rounding = gamma(n);
-        let wide: Vec<f64> = middle
-            .iter()
-            .zip(doubt)
-            .map(|(g, doubt)| sum_up(product_up(g.abs(), rounding), *doubt))
-            .collect();
-        let rest = self.bound(&wide);
+        let rest = self.rest(middle, doubt);
         computed.iter().zip(rest).map(|(g, rest)| sum_up(sum_up(g.abs(), rest), tiny(n))).collect()
     }
 
@@ -93,12 +95,7 @@ impl ApproximateInverse {
         }
         // Subnormal parts of the products stay below n of the least normal numbers in each entry.
         let sizes = bound_of_product(&self.matrix, &vec![1.0; n]);
-        let wide: Vec<f64> = sizes
-            .iter()
-            .zip(doubt)
-            .map(|(size, doubt)| sum_up(product_up(*size, gamma(n)), *doubt))
-            .collect();
-        let rest = self.bound(&wide);
+        let rest = self.rest(&sizes, doubt);
         let tiny = tiny(n) * n as f64;
         let total =
             |(sum, rest): (&f64, f64)| sum_up(sum_of_products_up(*sum, n), sum_up(rest, tiny));

@@ -278,15 +278,9 @@ fn replace_products(matrix: &mut [f64], basis: &[Vec<f64>], mut products: Vec<Ve
         })
         .collect();
     for (v, half) in basis.iter().zip(&halves) {
-        let size = v.len();
-        for j in 0..size {
-            for i in j..size {
-                let change = half[i] * v[j] + v[i] * half[j];
-                matrix[i + size * j] += change;
-                if i != j {
-                    matrix[j + size * i] += change;
-                }
-            }
+        for (j, column) in matrix.chunks_exact_mut(v.len()).enumerate() {
+            let rows = column.iter_mut().zip(half.iter().zip(v));
+            rows.for_each(|(entry, (half_i, v_i))| *entry += half_i * v[j] + v_i * half[j]);
         }
     }
 }

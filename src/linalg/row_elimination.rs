@@ -213,23 +213,10 @@ impl<'c> Elimination<'c> {
 /// Ascending, one term for each number; a sum that has cancelled but for rounding is none.
 pub fn gathered(mut terms: Terms) -> Terms {
     terms.sort_by_key(|(k, _)| *k);
-    let mut sums = Terms::new();
-    let mut sizes: Vec<f64> = Vec::new();
-    for (k, a) in terms {
-        match (sums.last_mut(), sizes.last_mut()) {
-            (Some((last, sum)), Some(size)) if *last == k => {
-                *sum += a;
-                *size += a.abs();
-            }
-            _ => {
-                sums.push((k, a));
-                sizes.push(a.abs());
-            }
-        }
-    }
-    let remains = |((_, a), size): (&(usize, f64), &f64)| a.abs() > ROUNDING * size;
-    let remaining: Vec<bool> = sums.iter().zip(&sizes).map(remains).collect();
-    let mut remaining = remaining.into_iter();
-    sums.retain(|_| remaining.next() == Some(true));
-    sums
+    let sum = |terms: &[(usize, f64)]| {
+        let parts = || terms.iter().map(|(_, a)| *a);
+        let (sum, size): (f64, f64) = (parts().sum(), parts().map(f64::abs).sum());
+        (sum.abs() > ROUNDING * size).then_some((terms[0].0, sum))
+    };
+    terms.chunk_by(|one, other| one.0 == other.0).filter_map(sum).collect()
 }

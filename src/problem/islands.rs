@@ -1,8 +1,6 @@
 //! Islands: the pairs of a sparse matrix in groups that no entry ties to each other, connected components of its
 //! graph over the pairs; or other things that are tied to each other.
 
-use std::ops::Range;
-
 /// A partition of pairs. Islands are in the order of their first pairs.
 #[derive(Clone, Debug)]
 pub struct Islands {
@@ -17,27 +15,14 @@ impl Islands {
     pub fn new(pairs: usize, ties: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut forest = Forest { parents: (0..pairs).collect() };
         ties.for_each(|(one, other)| forest.unite(one, other));
-        // A root is the least of its tree, so it is met before all others.
-        let mut island = vec![0; pairs];
-        let mut starts = vec![0];
-        for pair in 0..pairs {
-            let root = forest.root(pair);
-            if root == pair {
-                island[pair] = starts.len() - 1;
-                starts.push(0);
-            } else {
-                island[pair] = island[root];
-            }
-            starts[island[pair] + 1] += 1;
-        }
-        for i in 1..starts.len() {
-            starts[i] += starts[i - 1];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0; pairs];
-        for (pair, &island) in island.iter().enumerate() {
-            members[next[island]] = pair;
-            next[island] += 1;
+        // A root is the first pair of its tree.
+        let roots: Vec<usize> = (0..pairs).map(|pair| forest.root(pair)).collect();
+        let mut members: Vec<usize> = (0..pairs).collect();
+        members.sort_unstable_by_key(|&pair| (roots[pair], pair));
+        let (mut starts, mut end) = (vec![0], 0);
+        for island in members.chunk_by(|&one, &other| roots[one] == roots[other]) {
+            end += island.len();
+            starts.push(end);
         }
         Islands { starts, members }
     }
@@ -49,7 +34,7 @@ impl Islands {
 
     /// The pairs of an island, ascending.
     pub fn pairs(&self, island: usize) -> &[usize] {
-        &self.members[self.range(island)]
+        &self.members[self.starts[island]..self.starts[island + 1]]
     }
 
     /// The pairs of each island.
@@ -62,10 +47,6 @@ impl Islands {
         let sizes = self.each().map(<[usize]>::len).enumerate();
         let first = sizes.max_by_key(|&(island, size)| (size, std::cmp::Reverse(island)));
         first.map_or(&[], |(island, _)| self.pairs(island))
-    }
-
-    fn range(&self, island: usize) -> Range<usize> {
-        self.starts[island]..self.starts[island + 1]
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{GoesOn, HeldSet, StiffnessOperator};
 use crate::error::Error;
 use crate::linalg::gmres::gmres;
-use crate::linalg::vector::norm;
+use crate::linalg::vector::{combination, norm};
 
 /// Most preconditionings of one solution: with a preconditioner that takes more nothing is solved in time.
 const MOST: usize = 200;
@@ -42,9 +42,6 @@ pub fn iterated(
         Err(None) => return Ok(None),
         Err(Some(error)) => return Err(error),
     };
-    let mut x = vec![0.0; forces.len()];
-    for (share, z) in shares.iter().zip(&directions) {
-        x.iter_mut().zip(z).for_each(|(x, z)| *x += share * z);
-    }
+    let x = combination(forces.len(), shares.into_iter().zip(&directions));
     Ok(Some((x, directions.len() as u64)))
 }

@@ -2,7 +2,7 @@
 
 use super::Reduction;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::linalg::vector::norm_inf;
+use crate::linalg::vector::{combination, norm_inf};
 
 /// The motion `d` that relative loads drive, in words: the parts that move, the resultant of the loads along it,
 /// and the part of it that nothing balances; then the force that is left, where the host's axes are known.
@@ -29,10 +29,7 @@ pub(crate) fn driven_motion(
 /// The sum of the forces of pairs that move in the host's axes: `(1.000e0, 0.000e0)`.
 fn force(frames: &[f64], forces: &[f64], d: &[f64]) -> String {
     let dim = frames.len() / d.len().max(1);
-    let mut sum = vec![0.0; dim];
-    for (force, direction) in forces.iter().zip(frames.chunks_exact(dim)) {
-        sum.iter_mut().zip(direction).for_each(|(sum, part)| *sum += force * part);
-    }
+    let sum = combination(dim, forces.iter().copied().zip(frames.chunks_exact(dim)));
     let least = ROUNDING_OF_SUM * norm_inf(forces) * forces.len() as f64;
     let parts: Vec<String> =
         sum.iter().map(|f| format!("{:.3e}", if f.abs() > least { *f } else { 0.0 })).collect();

@@ -68,10 +68,6 @@ impl<'l> Adjacency<'l> {
         Ok(Adjacency { lower, upper })
     }
 
-    fn unknowns(&self) -> usize {
-        self.lower.ncols()
-    }
-
     /// Neighbours, ascending, without the unknown itself.
     fn of(&self, i: usize) -> impl Iterator<Item = usize> {
         let both = self.upper.as_ref().row_idx_of_col(i).chain(self.lower.row_idx_of_col(i));
@@ -100,7 +96,7 @@ fn together(
     unknowns: &Adjacency<'_>,
     eliminated: usize,
 ) -> Result<(Vec<usize>, Lists), OutOfMemory> {
-    let size = unknowns.unknowns();
+    let size = unknowns.lower.ncols();
     let mut signature = reserved(size)?;
     signature.extend((0..size).map(|i| unknowns.signature(i)));
     let mut vertex = filled(size, usize::MAX)?;

@@ -54,7 +54,9 @@ pub fn subtract(
 ) -> Result<(), Failure> {
     let panels: Vec<KeptRows<'_>> =
         (0..structure.panels()).filter_map(|s| KeptRows::of(structure, values, s)).collect();
-    let operations: f64 = panels.iter().map(|kept| cost(kept.l.ncols(), kept.rows.len())).sum();
+    // Those of the lower triangle of a product.
+    let multiplications = |kept: &KeptRows<'_>| kept.l.ncols() * kept.rows.len().pow(2);
+    let operations = panels.iter().map(|kept| multiplications(kept) as f64 / 2.0).sum();
     // Panels with the same rows change the same entries.
     let chains: Vec<&[KeptRows<'_>]> =
         panels.chunk_by(|one, other| one.rows == other.rows).collect();
@@ -67,11 +69,6 @@ pub fn subtract(
             }
         }
     })
-}
-
-/// Multiplications of the lower triangle of a product.
-fn cost(width: usize, rows: usize) -> f64 {
-    (width * rows * rows) as f64 / 2.0
 }
 
 /// The blocks of the lower triangle: those on the diagonal are square.

@@ -10,7 +10,7 @@ use super::supports::{self, FixedComponent};
 use crate::error::{Argument, Error, Limit, Message};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
-use crate::linalg::vector::{columns, norm_inf};
+use crate::linalg::vector::{columns, combination, norm_inf};
 use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, StiffnessOperator};
 use crate::reduce::equations::Dependents;
@@ -212,10 +212,8 @@ impl Reduction for SparseReduction {
             return whole.into();
         };
         let range = dim * pair..dim * (pair + 1);
-        let mut relative = vec![0.0; dim];
-        for (d, direction) in d[range].iter().zip(self.frames[dim * dim * pair..].chunks(dim)) {
-            relative.iter_mut().zip(direction).for_each(|(u, part)| *u += d * part);
-        }
+        let directions = self.frames[dim * dim * pair..].chunks(dim);
+        let relative = combination(dim, d[range].iter().copied().zip(directions));
         messages::with_pair(&whole, pair, &relative).into()
     }
 }
