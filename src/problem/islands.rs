@@ -13,10 +13,12 @@ pub struct Islands {
 impl Islands {
     /// The islands of so many pairs, which `ties` connect: each two pairs at a time.
     pub fn new(pairs: usize, ties: impl Iterator<Item = (usize, usize)>) -> Self {
-        let mut forest = Forest { parents: (0..pairs).collect() };
-        ties.for_each(|(one, other)| forest.unite(one, other));
-        // A root is the first pair of its tree.
-        let roots: Vec<usize> = (0..pairs).map(|pair| forest.root(pair)).collect();
+        let mut parents: Vec<usize> = (0..pairs).collect();
+        for (one, other) in ties {
+            let (one, other) = (root(&mut parents, one), root(&mut parents, other));
+            parents[one.max(other)] = one.min(other);
+        }
+        let roots: Vec<usize> = (0..pairs).map(|pair| root(&mut parents, pair)).collect();
         let mut members: Vec<usize> = (0..pairs).collect();
         members.sort_unstable_by_key(|&pair| (roots[pair], pair));
         let (mut starts, mut end) = (vec![0], 0);
@@ -50,23 +52,11 @@ impl Islands {
     }
 }
 
-/// Trees of pairs, one for each island; the root of each is its least pair.
-struct Forest {
-    parents: Vec<usize>,
-}
-
-impl Forest {
-    fn unite(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.root(one), self.root(other));
-        self.parents[one.max(other)] = one.min(other);
+/// The first pair of the tree that a pair is in; the way there is halved.
+fn root(parents: &mut [usize], mut pair: usize) -> usize {
+    while parents[pair] != pair {
+        parents[pair] = parents[parents[pair]];
+        pair = parents[pair];
     }
-
-    /// The root of a pair; the way there is halved.
-    fn root(&mut self, mut pair: usize) -> usize {
-        while self.parents[pair] != pair {
-            self.parents[pair] = self.parents[self.parents[pair]];
-            pair = self.parents[pair];
-        }
-        pair
-    }
+    pair
 }

@@ -12,6 +12,7 @@
 
 use super::supports::FixedComponent;
 use crate::linalg::congruence::congruence;
+use crate::linalg::row_elimination::{Expression, Terms};
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
 };
@@ -33,55 +34,38 @@ pub(super) struct ChangeOfVariables {
     pub(super) free: Vec<usize>,
 }
 
-/// The columns of `W`, and its entries as they are gathered.
-pub(super) struct VariableColumns {
-    /// The host's degree of freedom of each free unknown.
-    pub(super) free: Vec<usize>,
-    unknowns: usize,
-    /// Number of fixed degrees of freedom.
-    pub(super) fixed: usize,
-    /// The column of each degree of freedom that is an unknown or fixed.
-    pub(super) of_dof: Vec<Option<usize>>,
-    pub(super) entries: Vec<(usize, usize, f64)>,
-}
-
-impl VariableColumns {
-    /// The columns where rows give the degrees of freedom `given` in so many `kept` variables; `places` are the places
-    /// in `fixed` of the host's degrees of freedom. Entries are those of degrees of freedom with a column.
-    pub(super) fn new(
-        places: &[Option<usize>],
-        given: impl Iterator<Item = usize>,
-        kept: usize,
-    ) -> Self {
-        let mut is_free: Vec<bool> = places.iter().map(Option::is_none).collect();
-        given.for_each(|dof| is_free[dof] = false);
-        let free: Vec<usize> = (0..places.len()).filter(|&dof| is_free[dof]).collect();
-        let unknowns = free.len() + kept;
-        let mut of_dof: Vec<Option<usize>> =
-            places.iter().map(|place| place.map(|k| unknowns + k)).collect();
-        free.iter().enumerate().for_each(|(k, &dof)| of_dof[dof] = Some(k));
-        let entries = of_dof.iter().enumerate();
-        let entries = entries.filter_map(|(dof, column)| Some((dof, (*column)?, 1.0))).collect();
-        let fixed = places.iter().flatten().count();
-        VariableColumns { free, unknowns, fixed, of_dof, entries }
-    }
-}
-
 impl ChangeOfVariables {
-    /// The change of variables with all entries of `T` and `P` but those of `dependents`, and springs on components
-    /// that are fixed.
+    /// The change of variables where rows give the degrees of freedom `given` in so many `kept` variables, which
+    /// `of_right_sides` tells; `places` are the places in `fixed` of the host's degrees of freedom. With springs on
+    /// components that are fixed.
     pub(super) fn new(
-        columns: VariableColumns,
+        (places, dependents): (&[Option<usize>], &Dependents),
+        (given, kept): (&[(usize, Expression)], usize),
+        of_right_sides: impl Fn(&Terms) -> Terms,
         fixed_components: &[FixedComponent],
-        dependents: &Dependents,
     ) -> Result<Self, OutOfMemory> {
-        let VariableColumns { free, unknowns, fixed, of_dof, mut entries } = columns;
-        let (host_size, springs) = (of_dof.len(), fixed_components.len());
+        let (host_size, springs) = (places.len(), fixed_components.len());
+        let mut is_free: Vec<bool> = places.iter().map(Option::is_none).collect();
+        let of_equations = dependents.of_matrix(host_size).map(|(dof, _)| dof);
+        given.iter().map(|(dof, _)| *dof).chain(of_equations).for_each(|dof| is_free[dof] = false);
+        let free: Vec<usize> = (0..host_size).filter(|&dof| is_free[dof]).collect();
+        let unknowns = free.len() + kept;
+        let mut column: Vec<Option<usize>> =
+            places.iter().map(|place| place.map(|k| unknowns + k)).collect();
+        free.iter().enumerate().for_each(|(k, &dof)| column[dof] = Some(k));
+        let same = (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0)));
+        let mut entries: Vec<(usize, usize, f64)> = same.collect();
+        for (dof, Expression { unknowns, right_sides }) in given {
+            // Unknowns that no equation gives have a column.
+            entries.extend(unknowns.iter().filter_map(|&(k, a)| Some((*dof, column[k]?, a))));
+            let kept = of_right_sides(right_sides).into_iter();
+            entries.extend(kept.map(|(k, a)| (*dof, free.len() + k, a)));
+        }
         for (k, fixed) in fixed_components.iter().enumerate() {
             entries.push((host_size + k, free.len() + fixed.variable, 1.0));
         }
         entries.retain(|(_, _, value)| *value != 0.0);
-        let rows = host_size + springs;
+        let (rows, fixed) = (host_size + springs, places.iter().flatten().count());
         let mut matrix = from_entries((rows, unknowns + fixed), entries.into_iter())?;
         if !dependents.is_empty() {
             matrix =

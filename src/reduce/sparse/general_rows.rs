@@ -10,7 +10,7 @@
 //! supports hold along directions of its frame, and the independent `delta` of other pairs. If there are others,
 //! rows depend on each other.
 
-use super::change_of_variables::{ChangeOfVariables, VariableColumns};
+use super::change_of_variables::ChangeOfVariables;
 use super::supports::FixedComponent;
 use crate::error::Error;
 use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
@@ -190,26 +190,16 @@ impl<'r> KeptRows<'r> {
         supports: Vec<FixedComponent>,
         dependents: &Dependents,
     ) -> Result<GeneralRows, OutOfMemory> {
-        let of_equations = dependents.of_matrix(self.fixed.len()).map(|(dof, _)| dof);
-        let given = solved.given.iter().map(|(dof, _)| *dof).chain(of_equations);
-        let mut columns = VariableColumns::new(self.fixed, given, self.kept);
-        let VariableColumns { free, of_dof: column, entries, .. } = &mut columns;
-        for (dof, expression) in &solved.given {
-            // Unknowns that no equation gives have a column.
-            let unknowns = expression.unknowns.iter();
-            entries.extend(unknowns.filter_map(|&(k, a)| Some((*dof, column[k]?, a))));
-            let sides = self.right_sides(&expression.right_sides);
-            entries.extend(sides.into_iter().map(|(k, a)| (*dof, free.len() + k, a)));
-        }
-        let fixed = columns.fixed;
-        let variables = ChangeOfVariables::new(columns, &supports, dependents)?;
+        let sides = |terms: &Terms| self.right_sides(terms);
+        let (places, given) = ((self.fixed, dependents), (&solved.given[..], self.kept));
+        let variables = ChangeOfVariables::new(places, given, sides, &supports)?;
         let depends = self.places.iter().any(|place| matches!(place, RowPlace::Axes(_)));
-        let dependent = if depends { Some(self.dependence(solved, fixed)?) } else { None };
+        let dependent = if depends { Some(self.dependence(solved)?) } else { None };
         Ok(GeneralRows { variables, supports, dependent })
     }
 
     /// `d` of the variables and of fixed values.
-    fn dependence(&self, solved: &Solved, fixed: usize) -> Result<Dependence, OutOfMemory> {
+    fn dependence(&self, solved: &Solved) -> Result<Dependence, OutOfMemory> {
         let (mut to_relative, mut from_relative, mut of_fixed) = (vec![], vec![], vec![]);
         let mut dependent_pairs = Vec::new();
         for (pair, place) in self.places.iter().enumerate() {
@@ -247,6 +237,7 @@ impl<'r> KeptRows<'r> {
         let count = self.dim * self.places.len();
         let matrices = [to_relative, from_relative];
         let shape = (count, self.kept);
+        let fixed = self.fixed.iter().flatten().count();
         Dependence::new(self.dim, shape, matrices, (fixed, of_fixed), dependent_pairs)
     }
 }
