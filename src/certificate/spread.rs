@@ -23,7 +23,7 @@ pub(crate) fn measure_spread(
 ) -> Certificate {
     let d = &x[bodies.inner()..];
     let (inner, raw) = residual.split_at(bodies.inner());
-    let at_zero = contact.problem().relation().at_zero();
+    let at_zero = contact.problem().relation().at_zero;
     let moved: Vec<f64> = x.iter().zip(at_zero).map(|(x, at_zero)| x - at_zero).collect();
     let terms = Terms::of_all(contact, d, (&moved, None), &|size| bodies.magnitude(size));
     let terms = terms.among(bodies.magnitude(&sizes(x)));

@@ -105,11 +105,8 @@ impl Outputs {
         for (output, (values, nothing)) in self.further.iter().zip(vectors) {
             output.part(n * case, n).write_or(values, nothing);
         }
-        let states = self.second_state.part(pairs * case, pairs);
-        match second {
-            Some(second) => states.write_each(state_codes(&second.certificate.states)),
-            None => states.write_each(repeat(0)),
-        }
+        let states = second.iter().flat_map(|second| state_codes(&second.certificate.states));
+        self.second_state.part(pairs * case, pairs).write_each(states.chain(repeat(0)));
     }
 }
 

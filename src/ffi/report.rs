@@ -144,7 +144,11 @@ impl SignoriniReport {
             second: i32::from(solution.second.is_some()),
             error_d: solution.errors.map_or(NOT_KNOWN, |errors| errors.d),
             error_F: solution.errors.map_or(NOT_KNOWN, |errors| errors.force),
-            proof: proof_code(&solution.existence),
+            proof: match solution.existence {
+                Existence::NotAsked => SIGNORINI_PROOF_NOT_ASKED,
+                Existence::Proved(_) => SIGNORINI_PROOF_PROVED,
+                Existence::NotProved => SIGNORINI_PROOF_NOT_PROVED,
+            },
             remarks: remark_codes(solution.remarks),
             ..Self::of_certificate(status, &solution.certificate)
         }
@@ -187,14 +191,6 @@ impl SignoriniReport {
             error_F: NOT_KNOWN,
             ..Self::zeros()
         }
-    }
-}
-
-fn proof_code(existence: &Existence) -> i32 {
-    match existence {
-        Existence::NotAsked => SIGNORINI_PROOF_NOT_ASKED,
-        Existence::Proved(_) => SIGNORINI_PROOF_PROVED,
-        Existence::NotProved => SIGNORINI_PROOF_NOT_PROVED,
     }
 }
 

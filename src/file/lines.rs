@@ -16,7 +16,7 @@ pub(super) struct Lines<'a> {
     path: &'a Path,
     reader: BufReader<File>,
     line: Vec<u8>,
-    number: u64,
+    pub(super) number: u64,
 }
 
 impl<'a> Lines<'a> {
@@ -54,10 +54,6 @@ impl<'a> Lines<'a> {
     /// The line without its end and the space around it.
     pub(super) fn text(&self) -> Cow<'_, str> {
         String::from_utf8_lossy(self.line.trim_ascii())
-    }
-
-    pub(super) fn number(&self) -> u64 {
-        self.number
     }
 
     /// An error in this line.

@@ -75,7 +75,7 @@ impl Comments {
             } else if let Some((key, value)) = comment.split_once(':')
                 && let Some(key) = KEYS.into_iter().find(|known| *known == key)
             {
-                let value = (lines.number(), value.trim_ascii().to_owned());
+                let value = (lines.number, value.trim_ascii().to_owned());
                 if comments.found.insert(key, value).is_some() {
                     return Err(lines.refuse(&format!("a second '{key}:'")));
                 }
@@ -224,7 +224,7 @@ fn rows(
     (size, most): (usize, usize),
     hold: impl Fn(usize) -> bool,
 ) -> Result<Vec<f64>, Error> {
-    let before = lines.number();
+    let before = lines.number;
     let column = lines.entries(name, (size, size), most)?;
     if let Some(i) = (0..size).find(|&i| !hold(i) && column[i] != 0.0) {
         let (row, value) = (index(i), column[i]);

@@ -27,9 +27,7 @@ impl Model {
         let whole = self.dim * self.pairs;
         match self.reduction.flexibility() {
             _ if self.is_matrix_free() => 0,
-            Some(FlexibilityForm::Sparse(matrix)) => {
-                memory_of_ties(law, matrix.dim() * matrix.islands().largest().len())
-            }
+            Some(FlexibilityForm::Sparse(matrix)) => memory_of_ties(law, matrix.largest_part()),
             _ => memory_of_ties(law, whole),
         }
     }

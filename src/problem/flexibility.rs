@@ -53,7 +53,7 @@ pub struct FlexibilityData<'a, W = (&'a [f64], usize)> {
 /// The relation `d = W F + q`: a view of the host's arrays.
 #[derive(Clone, Debug)]
 pub struct Flexibility<'a> {
-    form: FlexibilityForm<'a>,
+    pub(crate) form: FlexibilityForm<'a>,
     /// `q`.
     pub(crate) free: &'a [f64],
     /// Positive units of force per length, one for each component, the same for all tangents of a pair.
@@ -135,11 +135,6 @@ impl<'a> Flexibility<'a> {
             units: Cow::Borrowed(&self.units[part.clone()]),
             load: Cow::Borrowed(&self.load[part]),
         }
-    }
-
-    /// `W`.
-    pub(crate) fn form(&self) -> &FlexibilityForm<'a> {
-        &self.form
     }
 
     /// Units of force per length, one for each component.

@@ -15,7 +15,7 @@ pub(super) const ZERO: &str =
 pub struct SparseW {
     lower: Csc,
     dim: usize,
-    islands: Islands,
+    pub(crate) islands: Islands,
 }
 
 /// Pairs with an entry that is not zero are of one island.
@@ -56,19 +56,14 @@ impl SparseW {
         Some(copy)
     }
 
+    /// Number of rows of the largest island.
+    pub fn largest_part(&self) -> usize {
+        self.dim * self.islands.largest().len()
+    }
+
     /// Number of rows.
     pub fn size(&self) -> usize {
         self.lower.ncols()
-    }
-
-    /// Rows of a pair.
-    pub fn dim(&self) -> usize {
-        self.dim
-    }
-
-    /// The islands of its pairs.
-    pub fn islands(&self) -> &Islands {
-        &self.islands
     }
 
     /// Number of stored entries of a triangle.

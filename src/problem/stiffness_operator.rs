@@ -139,7 +139,8 @@ pub struct MatrixFree<'a> {
     couplings: Vec<f64>,
     dim: usize,
     load: &'a [f64],
-    at_zero: &'a [f64],
+    /// The displacements of all unknowns where those of the pairs are zero.
+    pub(crate) at_zero: &'a [f64],
     /// The rounding of the sums that give the loads.
     rounding: f64,
 }
@@ -160,11 +161,6 @@ impl<'a> MatrixFree<'a> {
         };
         let rounding = UNIT * norm(&bodies.magnitude(&sizes(at_zero)));
         MatrixFree { units, couplings, dim, load, at_zero, rounding }
-    }
-
-    /// The displacements of all unknowns where those of the pairs are zero.
-    pub fn at_zero(&self) -> &[f64] {
-        self.at_zero
     }
 }
 

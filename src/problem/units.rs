@@ -134,7 +134,7 @@ impl ChangesUnits for Flexibility<'_> {
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Flexibility<'_>) -> T) -> Option<T> {
         let entries;
-        let form = match self.form() {
+        let form = match &self.form {
             FlexibilityForm::Dense(matrix) => {
                 entries = dense(matrix, -units.stiffness())?;
                 FlexibilityForm::Dense(Matrix::new(matrix.size(), &entries, matrix.size().max(1)))

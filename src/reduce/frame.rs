@@ -25,7 +25,10 @@ impl Frame {
                     unit(vector3::vector(tangent)).ok_or("tangent is zero or not finite")?;
                 let cosine = given.dot(&normal);
                 if cosine.abs() > ERROR_OF_DIRECTION {
-                    return Err(not_orthogonal(cosine));
+                    return Err(format!(
+                        "tangent is not orthogonal to its normal (cosine {cosine:.2e}): subtract its part along \
+                         the normal"
+                    ));
                 }
                 unit(given - cosine * normal).unwrap_or(given)
             }
@@ -92,10 +95,4 @@ impl Frame {
         self.directions[next] = across.unwrap_or(self.directions[next]);
         self.directions[last] = exact.cross(&self.directions[next]);
     }
-}
-
-fn not_orthogonal(cosine: f64) -> String {
-    format!(
-        "tangent is not orthogonal to its normal (cosine {cosine:.2e}): subtract its part along the normal"
-    )
 }

@@ -17,11 +17,6 @@ pub(super) fn moving(values: &[f64]) -> (Vec<usize>, Vec<usize>) {
     (moving, most)
 }
 
-/// Returns `true` if displacements are none beside the largest one of all.
-pub(super) fn rests(values: &[f64], most: f64) -> bool {
-    norm_inf(values) <= MOVING * most
-}
-
 /// Displacements of a host's degrees of freedom: `5 of the degrees of freedom 2 to 9, most of all
 /// degree of freedom 4 by 1.000, 6 by 0.500, ...`, relative to the largest.
 pub(super) fn of_host(u: &[f64]) -> String {

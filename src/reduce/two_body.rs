@@ -17,7 +17,7 @@ use super::{HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{MOVING, NEGLIGIBLE};
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
 
@@ -171,7 +171,7 @@ impl Reduction for TwoBodyReduction {
         let largest = norm_inf(&u);
         let (first, second) = u.split_at(self.size);
         let moving = |name, u: &[f64]| {
-            if motion::rests(u, largest) {
+            if norm_inf(u) <= MOVING * largest {
                 format!("body {name} not at all")
             } else {
                 format!("body {name}: {}", motion::of_pairs(dim, u))

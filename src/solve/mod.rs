@@ -94,12 +94,10 @@ pub fn solve_flexibility(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let (form, by) = (problem.relation().form(), (settings, plan::solve as Solve));
+    let (form, by) = (&problem.relation().form, (settings, plan::solve as Solve));
     let copy = || match form {
         FlexibilityForm::Dense(_) => copies_of(problem),
-        FlexibilityForm::Sparse(w) => {
-            memory_of_ties(problem.law(), w.dim() * w.islands().largest().len())
-        }
+        FlexibilityForm::Sparse(w) => memory_of_ties(problem.law(), w.largest_part()),
     };
     let bytes = || memory_of_flexibility(form) + copy();
     check(settings, bytes, ("F", problem, start)).map_err(|error| {

@@ -22,7 +22,7 @@ pub struct SparseSchur {
     /// The factor.
     values: Vec<f64>,
     /// `S`, column-major.
-    schur: Vec<f64>,
+    pub schur: Vec<f64>,
     /// The last right side that was condensed by itself, and the result of its elimination: its recovery needs both
     /// again.
     last: LastCase,
@@ -61,11 +61,6 @@ impl SparseSchur {
             progress(1.0)?;
         }
         Ok(found)
-    }
-
-    /// `S`, column-major.
-    pub fn schur(&self) -> &[f64] {
-        &self.schur
     }
 
     /// Makes each of these decoupled rows of `S` as stiff as the stiffest other one of its group of `group` rows. Methods

@@ -15,7 +15,7 @@ use super::supports::FixedComponent;
 use crate::error::Error;
 use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
 use crate::linalg::sparse_matrix::OutOfMemory;
-use crate::linalg::vector3::{self, Vector3, unit};
+use crate::linalg::vector3::{self, Vector3, unit, without};
 use crate::problem::Dependence;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
@@ -115,10 +115,7 @@ fn held_directions(of_axes: &[(usize, &Expression)], dim: usize) -> Vec<Vector3>
         for (equation, share) in &expression.right_sides {
             direction[equation % dim] -= share;
         }
-        for other in &directions {
-            direction -= direction.dot(other) * other;
-        }
-        directions.extend(unit(direction));
+        directions.extend(unit(without(direction, &directions)));
     }
     directions
 }

@@ -117,7 +117,7 @@ impl SparseReduction {
 impl Reduction for SparseReduction {
     fn stiffness(&self) -> &[f64] {
         match &self.engine {
-            Engine::Condensed(schur) => schur.schur(),
+            Engine::Condensed(schur) => &schur.schur,
             Engine::FullSpace(_) => &[],
         }
     }

@@ -68,7 +68,7 @@ impl InSeries for Bodies<'_> {
     }
 
     fn stiffness(&self) -> &[f64] {
-        self.condensed.schur()
+        &self.condensed.schur
     }
 
     fn load(&mut self, force: &[f64]) -> Vec<f64> {

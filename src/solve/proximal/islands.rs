@@ -28,7 +28,7 @@ pub fn solve(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let FlexibilityForm::Sparse(matrix) = problem.relation().form() else {
+    let FlexibilityForm::Sparse(matrix) = &problem.relation().form else {
         return flexibility::solve(problem, (settings, solve), start, &|pair| pair, monitor);
     };
     let contact = &Contact::new(problem);
@@ -44,7 +44,7 @@ fn in_turn(
     monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
     let problem = contact.problem();
-    let (islands, dim) = (matrix.islands(), problem.dim());
+    let (islands, dim) = (&matrix.islands, problem.dim());
     let several = islands.len() > 1;
     let mut own = settings.clone();
     if several {
@@ -97,7 +97,7 @@ fn in_turn(
 /// The largest island of a sparse `W`, in words.
 pub fn largest_island(form: &FlexibilityForm<'_>) -> Option<String> {
     let FlexibilityForm::Sparse(matrix) = form else { return None };
-    let pairs = matrix.islands().largest();
+    let pairs = matrix.islands.largest();
     Some(format!("the largest island has {} pairs: {}", pairs.len(), named(pairs)))
 }
 

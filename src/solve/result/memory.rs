@@ -40,7 +40,7 @@ pub fn memory(unknowns: usize) -> u64 {
 /// besides. Of a sparse `W` those of its largest island as a dense problem, of which the matrix is made, and of the
 /// problem itself, which has a copy of the host's matrix.
 pub fn memory_flexibility(problem: &FlexibilityProblem<'_>) -> u64 {
-    memory_of_flexibility(problem.relation().form())
+    memory_of_flexibility(&problem.relation().form)
 }
 
 /// As [`memory_flexibility`], from the matrix alone.
@@ -50,7 +50,7 @@ pub fn memory_of_flexibility(form: &FlexibilityForm<'_>) -> u64 {
     match form {
         FlexibilityForm::Dense(matrix) => dense(matrix.size()),
         FlexibilityForm::Sparse(matrix) => {
-            let largest = matrix.dim() * matrix.islands().largest().len();
+            let largest = matrix.largest_part();
             let vectors = VECTORS_OF_WHOLE * (matrix.size() * size_of::<f64>()) as f64;
             let copy = matrix.entries() as f64 * (size_of::<usize>() + size_of::<f64>()) as f64;
             dense(largest) + (square(largest) + vectors + copy) as u64
