@@ -21,11 +21,10 @@ pub fn iterated(
     goes_on: GoesOn<'_>,
 ) -> Result<Option<(Vec<f64>, u64)>, Error> {
     let root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
-    let inner = bodies.inner();
-    let free = |i: usize| i < inner || !held_set.held[i - inner];
-    let scaled = |forces: &[f64]| -> Vec<f64> {
-        let parts = forces.iter().zip(&root).enumerate();
-        parts.map(|(i, (force, root))| if free(i) { force / root } else { 0.0 }).collect()
+    let scaled = |forces: &[f64]| {
+        let mut scaled: Vec<f64> = forces.iter().zip(&root).map(|(f, root)| f / root).collect();
+        held_set.clear(&mut scaled);
+        scaled
     };
     let right = scaled(forces);
     let mut directions: Vec<Vec<f64>> = Vec::new();

@@ -38,6 +38,13 @@ impl HeldSet {
     pub fn none(dim: usize, pairs: usize) -> Self {
         HeldSet { held: vec![false; dim * pairs], ..HeldSet::all(dim, pairs) }
     }
+
+    /// Sets what is held to zero in a vector of all unknowns.
+    pub fn clear(&self, x: &mut [f64]) {
+        let inner = x.len() - self.held.len();
+        let held = x[inner..].iter_mut().zip(&self.held).filter(|(_, held)| **held);
+        held.for_each(|(x, _)| *x = 0.0);
+    }
 }
 
 /// The result of [`StiffnessOperator::solve`].

@@ -108,13 +108,8 @@ impl PreconditionedReduction {
     }
 
     fn precondition(&self, held_set: &HeldSet, forces: &[f64]) -> Result<Vec<f64>, Error> {
-        let inner = self.inner();
-        let only_free = |x: &mut [f64]| {
-            let of_pairs = x[inner..].iter_mut().zip(&held_set.held);
-            of_pairs.filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
-        };
         let mut forces = forces.to_vec();
-        only_free(&mut forces);
+        held_set.clear(&mut forces);
         let forces = self.to_host(&forces);
         let across = self.dim - 1;
         let rows = held_set.springs.iter().flat_map(|springs| springs.iter().take(across));
@@ -126,7 +121,7 @@ impl PreconditionedReduction {
         let call = |z: &mut [f64]| self.operator.precondition(&held, &forces, z);
         let mut z = self.of_host(&called("the preconditioner", forces.len(), call)?);
         *last = Some(held_set.clone());
-        only_free(&mut z);
+        held_set.clear(&mut z);
         Ok(z)
     }
 

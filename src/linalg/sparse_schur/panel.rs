@@ -91,10 +91,6 @@ impl<'a> Panel<'a> {
         self.source.structure.rows(self.number)
     }
 
-    fn changes(&self) -> &[Change] {
-        self.source.schedule.changes(self.number)
-    }
-
     /// An earlier panel: its rows by number, and their values.
     fn earlier(&self, by: usize) -> (&[usize], MatRef<'_, f64>) {
         let structure = self.source.structure;
@@ -105,8 +101,8 @@ impl<'a> Panel<'a> {
 
     /// The panels before it that change it, those together that change the same entries.
     fn chains(&self) -> impl Iterator<Item = &[Change]> {
-        let structure = self.source.structure;
-        self.changes().chunk_by(|one, other| {
+        let Source { structure, schedule, .. } = self.source;
+        schedule.changes(self.number).chunk_by(|one, other| {
             let count = |change: &Change| structure.rows(change.by).len() - change.first;
             // Rows of a panel are columns or rows of the one with its first row as a column.
             let is_next = structure.columns(other.by).contains(&structure.rows(one.by)[0]);

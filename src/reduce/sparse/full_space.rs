@@ -262,16 +262,10 @@ impl StiffnessOperator for InUse<'_> {
         let Factor { held_set: Some(held_set), values } = &self.factor else {
             unreachable!("something is held before")
         };
-        let (inner, size) = (self.space.inner, self.space.matrix.ncols().max(1));
         let mut right = forces.to_vec();
         // A vector, or several one behind the other.
-        for right in right.chunks_exact_mut(size) {
-            for (force, held) in right[inner..].iter_mut().zip(&held_set.held) {
-                if *held {
-                    *force = 0.0;
-                }
-            }
-        }
+        let each = right.chunks_exact_mut(self.space.matrix.ncols().max(1));
+        each.for_each(|right| held_set.clear(right));
         Ok(self.space.cholesky.solve(values, &right, goes_on))
     }
 }
