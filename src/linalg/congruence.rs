@@ -6,7 +6,8 @@
 //! they are they would pass for a stiffness, or for a negative one.
 
 use super::sparse_matrix::{
-    Columns, Csc, OutOfMemory, absolute, both, column, diagonal, from_entries, product, transposed,
+    Columns, Csc, OutOfMemory, absolute, both, column, diagonal, entries, from_entries, product,
+    transposed,
 };
 use super::tolerances::ROUNDING;
 use super::watched::GoesOn;
@@ -104,22 +105,18 @@ impl Unresisted {
 /// `|W|ᵀ |A|` times some columns of `|W|`; `lower` is `H`.
 fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfMemory> {
     let half = absolute(lower);
-    let entries = (0..half.ncols()).flat_map(|j| {
-        let (rows, values) = column(&half, j);
-        rows.iter().zip(values).flat_map(move |(&i, &value)| [(i, j, value), (j, i, value)])
-    });
-    let whole = from_entries((half.nrows(), half.ncols()), entries)?;
+    let mirrored = entries(&half).flat_map(|(i, j, value)| [(i, j, value), (j, i, value)]);
+    let whole = from_entries((half.nrows(), half.ncols()), mirrored)?;
     let w = absolute(w);
-    let entries = columns.iter().enumerate().flat_map(|(k, &j)| {
+    let some = columns.iter().enumerate().flat_map(|(k, &j)| {
         let (rows, values) = column(&w, j);
         rows.iter().zip(values).map(move |(&i, &value)| (i, k, value))
     });
-    let chosen = from_entries((w.nrows(), columns.len()), entries)?;
+    let chosen = from_entries((w.nrows(), columns.len()), some)?;
     product(&transposed(&w)?, &product(&whole, &chosen)?)
 }
 
 /// An entry; 0 if it is not stored.
 fn entry(a: &Csc, i: usize, j: usize) -> f64 {
-    let (rows, values) = column(a, j);
-    rows.binary_search(&i).map_or(0.0, |place| values[place])
+    a.get(i, j).copied().unwrap_or(0.0)
 }

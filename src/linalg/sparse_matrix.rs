@@ -41,6 +41,14 @@ pub fn column(a: &Csc, j: usize) -> (&[usize], &[f64]) {
     (&a.symbolic().row_idx()[range.clone()], &a.val()[range])
 }
 
+/// All entries, column by column: row, column, value.
+pub fn entries(a: &Csc) -> impl Iterator<Item = (usize, usize, f64)> {
+    (0..a.ncols()).flat_map(|j| {
+        let (rows, values) = column(a, j);
+        rows.iter().zip(values).map(move |(&i, &value)| (i, j, value))
+    })
+}
+
 /// The diagonal entry of column `j` of a lower triangle, if it is stored.
 pub fn diagonal(lower: &Csc, j: usize) -> Option<f64> {
     let (rows, values) = column(lower, j);

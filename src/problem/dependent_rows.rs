@@ -12,7 +12,7 @@
 use super::relation::{Redundant, Relation};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, column, from_entries, times, transpose_times,
+    Csc, OutOfMemory, column, entries, from_entries, times, transpose_times,
 };
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{largest_of, norm_inf};
@@ -184,12 +184,9 @@ impl Relation for DependentRows<'_> {
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
         let absolute = |a: &Csc, x: &[f64], y: &mut [f64], transpose: bool| {
-            for j in 0..a.ncols() {
-                let (rows, values) = column(a, j);
-                for (&i, value) in rows.iter().zip(values) {
-                    let (to, from) = if transpose { (j, i) } else { (i, j) };
-                    y[to] += value.abs() * x[from];
-                }
+            for (i, j, value) in entries(a) {
+                let (to, from) = if transpose { (j, i) } else { (i, j) };
+                y[to] += value.abs() * x[from];
             }
         };
         let dependence = self.dependence;

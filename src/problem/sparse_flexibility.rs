@@ -3,7 +3,9 @@
 
 use super::islands::Islands;
 use crate::error::{Argument, Error};
-use crate::linalg::sparse_matrix::{Csc, column, diagonal, symmetric_residual, symmetric_times};
+use crate::linalg::sparse_matrix::{
+    Csc, column, diagonal, entries, symmetric_residual, symmetric_times,
+};
 use crate::linalg::vector::largest_of;
 
 /// Why a matrix of zeros is refused.
@@ -20,12 +22,8 @@ pub struct SparseW {
 
 /// Pairs with an entry that is not zero are of one island.
 fn islands(lower: &Csc, dim: usize) -> Islands {
-    let ties = (0..lower.ncols()).flat_map(|j| {
-        let (rows, values) = column(lower, j);
-        let entries = rows.iter().zip(values).filter(|(_, value)| **value != 0.0);
-        entries.map(move |(i, _)| (i / dim, j / dim))
-    });
-    Islands::new(lower.ncols() / dim, ties)
+    let ties = entries(lower).filter(|(_, _, value)| *value != 0.0);
+    Islands::new(lower.ncols() / dim, ties.map(|(i, j, _)| (i / dim, j / dim)))
 }
 
 impl SparseW {

@@ -91,7 +91,7 @@ fn parts(links: &Lists, separator: &[usize]) -> Vec<Vec<usize>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lists, Piece, SMALL, dissected};
+    use super::{Piece, SMALL, dissected};
     use crate::linalg::sparse_schur::factor_progress::Failure;
     use crate::linalg::sparse_schur::separator::tests::strip;
 

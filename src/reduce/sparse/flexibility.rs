@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::host_arrays::SparseMatrix;
 use crate::error::Error;
-use crate::linalg::sparse_matrix::{Csc, column, diagonal};
+use crate::linalg::sparse_matrix::{Csc, diagonal, entries};
 use crate::linalg::tolerances::AGREES;
 use crate::problem::symmetric_matrix::beyond_diagonal;
 use crate::problem::{
@@ -54,13 +54,10 @@ impl SparseW {
 fn check_entries(lower: &Csc) -> Result<(), Error> {
     let root: Vec<f64> =
         (0..lower.ncols()).map(|j| diagonal(lower, j).unwrap_or(0.0).sqrt()).collect();
-    for j in 0..lower.ncols() {
-        let (rows, values) = column(lower, j);
-        for (&i, &value) in rows.iter().zip(values).filter(|(i, _)| **i != j) {
-            let scale = root[i] * root[j];
-            if value.abs() > (1.0 + AGREES) * scale {
-                return refuse(beyond_diagonal("W", (i, j), value, scale));
-            }
+    for (i, j, value) in entries(lower).filter(|(i, j, _)| i != j) {
+        let scale = root[i] * root[j];
+        if value.abs() > (1.0 + AGREES) * scale {
+            return refuse(beyond_diagonal("W", (i, j), value, scale));
         }
     }
     Ok(())

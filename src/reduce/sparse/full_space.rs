@@ -11,7 +11,7 @@ use super::control::Asked;
 use crate::error::{Argument, Error};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
-    Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
+    Csc, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
 use crate::linalg::sparse_schur::{Failure, Plan, Values};
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, Solved, StiffnessOperator};
@@ -28,6 +28,8 @@ pub(super) struct FullSpace {
     dim: usize,
     units: Vec<f64>,
     cholesky: Plan,
+    /// Bytes of a factor, a second matrix with components held, and some vectors of all unknowns.
+    pub(super) factor_bytes: u64,
     /// The factor that was made last, for whom needs the same one next, or its memory.
     kept: Mutex<Factor>,
     /// The loads and all unknowns of the last load case, for its recovery.
@@ -51,12 +53,15 @@ impl FullSpace {
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
         let cholesky = Plan::new(&matrix, matrix.ncols(), None, &mut |share| asked.goes_on(share))?;
-        asked.needs(factor_bytes(&cholesky, &matrix))?;
+        let entry = size_of::<usize>() + size_of::<f64>();
+        let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
+        let factor_bytes = cholesky.bytes + copy as u64;
+        asked.needs(factor_bytes)?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
         let (kept, last) = (Mutex::default(), LastCase::default());
-        let mut space = FullSpace { matrix, inner, dim, units, cholesky, kept, last };
+        let mut space = FullSpace { matrix, inner, dim, units, cholesky, factor_bytes, kept, last };
         let values = space
             .cholesky
             .definite(space.restricted(&held_set, 0.0), &mut |share| asked.goes_on(share))?;
@@ -66,11 +71,6 @@ impl FullSpace {
         }
         space.kept = Mutex::new(Factor { held_set: Some(held_set), values });
         Ok(space)
-    }
-
-    /// Bytes of a factor with what it takes to make and to use it.
-    pub(super) fn factor_bytes(&self) -> u64 {
-        factor_bytes(&self.cholesky, &self.matrix)
     }
 
     /// The matrix with rows and columns of held components replaced, and with springs: those of the held set,
@@ -159,13 +159,6 @@ impl FullSpace {
     }
 }
 
-/// A factor, a second matrix with components held, and some vectors of all unknowns.
-fn factor_bytes(cholesky: &Plan, matrix: &Csc) -> u64 {
-    let entry = size_of::<usize>() + size_of::<f64>();
-    let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
-    cholesky.bytes + copy as u64
-}
-
 /// Vectors of all unknowns that a solution holds at a time, beside directions of GMRES.
 const VECTORS: usize = 16;
 
@@ -200,8 +193,7 @@ impl StiffnessOperator for InUse<'_> {
 
     fn coupling(&self, i: usize, j: usize) -> f64 {
         let (row, place) = (self.space.inner + i.max(j), self.space.inner + i.min(j));
-        let (rows, values) = column(&self.space.matrix, place);
-        rows.binary_search(&row).map_or(0.0, |place| values[place])
+        self.space.matrix.get(row, place).copied().unwrap_or(0.0)
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {

@@ -3,7 +3,9 @@
 use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
 use crate::error::{Error, entry, number};
-use crate::linalg::sparse_matrix::{Columns, Csc, OutOfMemory, both, column, diagonal, transposed};
+use crate::linalg::sparse_matrix::{
+    Columns, Csc, OutOfMemory, both, column, diagonal, entries, transposed,
+};
 use crate::linalg::tolerances::AGREES;
 use crate::reduce::probes::refuse;
 
@@ -158,18 +160,15 @@ fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> 
     let Some(first) = without.iter().position(|without| *without) else { return Ok(()) };
     let is = |j: usize| if diagonal(lower, j).is_some() { "0" } else { "missing" };
     // Beside a zero on its diagonal a positive semi-definite matrix has zeros.
-    for j in 0..size {
-        let (rows, values) = column(lower, j);
-        for (&i, value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
-            if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
-                return refuse(format!(
-                    "{} is {}, it must be positive: {} is {}",
-                    entry(name, [dof, dof]),
-                    is(dof),
-                    entry(name, [i, j]),
-                    number(*value)
-                ));
-            }
+    for (i, j, value) in entries(lower).filter(|(_, _, value)| *value != 0.0) {
+        if let Some(dof) = [i, j].into_iter().find(|&dof| without[dof]) {
+            return refuse(format!(
+                "{} is {}, it must be positive: {} is {}",
+                entry(name, [dof, dof]),
+                is(dof),
+                entry(name, [i, j]),
+                number(value)
+            ));
         }
     }
     match (first..size).find(|&dof| without[dof] && !is_fixed(dof)) {

@@ -135,7 +135,7 @@ impl Reduction for SparseReduction {
     }
 
     fn factor_bytes(&self) -> u64 {
-        self.engine.full_space().map_or(0, FullSpace::factor_bytes)
+        self.engine.full_space().map_or(0, |space| space.factor_bytes)
     }
 
     fn host_size(&self) -> usize {
