@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::linalg::sparse_matrix::OutOfMemory;
 use crate::shortage;
 
-/// Lists, one after the other, and where they begin. Of a graph: the neighbours of each vertex, ascending.
+/// Lists, one after the other, and where they begin. Those of a graph are the neighbours of each vertex, ascending.
 #[derive(Clone)]
 pub struct Lists {
     pub start: Vec<usize>,

@@ -54,7 +54,7 @@ pub fn subtract(
 ) -> Result<(), Failure> {
     let panels: Vec<KeptRows<'_>> =
         (0..structure.panels()).filter_map(|s| KeptRows::of(structure, values, s)).collect();
-    // Those of the lower triangle of a product.
+    // A product is made in its lower triangle alone.
     let multiplications = |kept: &KeptRows<'_>| kept.l.ncols() * kept.rows.len().pow(2);
     let operations = panels.iter().map(|kept| multiplications(kept) as f64 / 2.0).sum();
     // Panels with the same rows change the same entries.
