@@ -29,8 +29,8 @@ pub enum Normals {
     /// lie over the master, by the node's share of the area that does: faces around a sharp edge that face
     /// nothing do not turn it. Nodes against surfaces: opposite to the normal of the master face that the node stands
     /// nearest to, at the foot of the perpendicular; beyond an edge of the master, where there is no foot,
-    /// that of the face which the averaged normal meets, where it meets it. Which nodes have pairs does not
-    /// depend on it.
+    /// that of the face which the averaged normal meets, where it meets it; of several faces that are equally near the mean of their
+    /// normals, where the averaged normal meets them. Which nodes have pairs does not depend on it.
     Faces,
 }
 

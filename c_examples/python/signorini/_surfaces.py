@@ -318,7 +318,8 @@ class SurfacePairs(Remade):
     def adjusted(self, within=np.inf, moves=1):
         """Coordinates of all nodes, with slave nodes moved so that the two points of each pair meet.
 
-        within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn.
+        within: the largest distance between them that is closed. A tie of curved sides then follows a rigid turn
+        but for little; with keep_turns of pair_surfaces wholly.
         moves: how often; the moved nodes are paired again before the next. A second one leaves less at
         single pairs of quadratic faces. With a limit within one alone: distances are those before.
         Assemble K with these coordinates, and pair them again.
