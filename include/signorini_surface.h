@@ -378,7 +378,8 @@ int32_t signorini_surface_view(const signorini_surface_pairs *contact,
 
 /**
  * Moves slave nodes so that the two points of each pair meet, as little as that takes; of pairs
- * whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn.
+ * whose points are no further apart than `within`. A tie of curved sides then follows a rigid turn
+ * but for little; rows with settings.keep_turns follow it wholly.
  * Of an obstacle the point is where the measured gap ends: close_within and clearance have no say.
  * Assemble your matrix with the moved nodes, and pair again. Where single pairs of quadratic faces
  * count, pair and move a second time before: a tenth is left of the largest.
