@@ -47,9 +47,25 @@ impl MasterPoint {
     }
 }
 
-/// The nearest meeting; of several the first one.
-fn nearest(meetings: impl Iterator<Item = MasterPoint>) -> Option<MasterPoint> {
-    meetings.min_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()))
+/// The meetings that are nearest, up to a rounding, the very nearest first. The order of faces chooses none of their normals: all have
+/// the mean.
+fn nearest(meetings: impl Iterator<Item = MasterPoint>, rounding: f64) -> Vec<MasterPoint> {
+    let mut meetings: Vec<MasterPoint> = meetings.collect();
+    meetings.sort_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
+    let Some(first) = meetings.first() else { return meetings };
+    let (most, mut mean) = ((1.0 + BEYOND) * first.distance.abs() + rounding, first.normal);
+    meetings.retain(|met| met.distance.abs() <= most);
+    let mut normals: Vec<Vector3> = Vec::new();
+    for MasterPoint { normal, .. } in &meetings {
+        if !normals.iter().any(|known| (known - normal).norm() <= BEYOND) {
+            normals.push(*normal);
+        }
+    }
+    if normals.len() > 1 {
+        mean = unit(normals.iter().sum()).unwrap_or(mean);
+    }
+    meetings.iter_mut().for_each(|met| met.normal = mean);
+    meetings
 }
 
 /// The master point that a node with an averaged normal meets, the nearest if there are several.
@@ -63,7 +79,8 @@ fn meets(
     let reach = candidates.reach;
     let found = candidates.of_point(x, averaged);
     let faces = || found.iter().map(|&at| master.face(at));
-    let along_ray = nearest(faces().filter_map(|face| {
+    let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
+    let along_ray = faces().filter_map(|face| {
         let flat = plane.flatten(&face);
         let at = flat.local([0.0; 2])?;
         let normal = match normals {
@@ -71,7 +88,8 @@ fn meets(
             Normals::Faces => -unit(face.outward(at))?,
         };
         MasterPoint::new(&face, (at, normal), flat.height(at), |distance| reach.holds(distance))
-    }))?;
+    });
+    let along_ray = nearest(along_ray, rounding).into_iter().next()?;
     if own.end_above((x, averaged), -along_ray.distance, reach.of_shells()) {
         return None;
     }
@@ -84,32 +102,15 @@ fn meets(
         let (at, outward) = foot(&face, x)?;
         MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
     });
-    let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
-    Some(nearest_foot(master, perpendicular.collect(), rounding, along_ray))
-}
-
-/// The nearest foot of a perpendicular, or what the ray meets where there is none. Of several that are equally near none is chosen by
-/// the order of faces: the pair has the mean of their normals, and the point that the ray meets if they are apart.
-fn nearest_foot(
-    master: &Side<'_>,
-    mut feet: Vec<MasterPoint>,
-    rounding: f64,
-    along_ray: MasterPoint,
-) -> MasterPoint {
-    let least = feet.iter().map(|foot| foot.distance).fold(f64::INFINITY, f64::min);
-    feet.retain(|foot| foot.distance <= (1.0 + BEYOND) * least + rounding);
+    let feet = nearest(perpendicular, rounding);
     let place = |foot: &MasterPoint| master.point(&foot.weights);
-    let Some(first) = feet.first() else { return along_ray };
-    let are_one = feet.iter().all(|foot| (place(foot) - place(first)).norm() <= rounding);
-    let mut normals: Vec<Vector3> = Vec::new();
-    for MasterPoint { normal, .. } in &feet {
-        if !normals.iter().any(|known| (known - normal).norm() <= BEYOND) {
-            normals.push(*normal);
-        }
+    let are_apart = |foot: &MasterPoint| (place(foot) - place(&feet[0])).norm() > rounding;
+    let of_feet = feet.first().map(|foot| foot.normal);
+    match of_feet {
+        // Between feet that are apart the pair has the point that the ray meets.
+        Some(normal) if feet.iter().any(are_apart) => Some(MasterPoint { normal, ..along_ray }),
+        _ => Some(feet.into_iter().next().unwrap_or(along_ray)),
     }
-    let normal = unit(normals.iter().sum()).unwrap_or(first.normal);
-    let point = if are_one { feet.swap_remove(0) } else { along_ray };
-    MasterPoint { normal, ..point }
 }
 
 /// The pairs of two sides.

@@ -79,33 +79,38 @@ fn sides_of_a_polygon_are_alike() {
     }
 }
 
-/// A node over a notch is equally near to both flanks. Its normal is their mean and its gap that to the bottom, whichever flank is first
-/// in the list, and in the half model.
+/// A node over a notch is equally near to both flanks, and over a ridge its ray meets both. Its normal is their mean and its gap that to
+/// the bottom or to the ridge, whichever flank is first in the list, and in the half model.
 #[test]
-fn a_node_over_a_notch_has_the_mean_of_both_flanks() {
-    let nodes = vec![
-        [-1.0, 0.1, 0.0],
-        [0.0, 0.1, 0.0],
-        [1.0, 0.1, 0.0],
-        [-1.0, 0.3, 0.0],
-        [0.0, 0.0, 0.0],
-        [1.0, 0.3, 0.0],
-    ];
-    let slave = [vec![0, 1], vec![1, 2]];
-    let flanks = [vec![4, 3], vec![5, 4]];
-    let turned = [flanks[1].clone(), flanks[0].clone()];
-    let of_node = |found: SurfacePairs| {
-        let pair = found.pairs.into_iter().find(|pair| pair.slave == 1).expect("a pair");
-        (pair.normal, pair.gap)
-    };
-    let whole = |flanks: &[Vec<usize>]| {
-        of_node(pair(2, &nodes, [&slave[..], flanks], &of_faces(vec![])).unwrap())
-    };
-    let half = of_faces(vec![SymmetryPlane::across(0, 0.0)]);
-    let half = of_node(pair(2, &nodes, [&slave[1..], &flanks[1..]], &half).unwrap());
-    for (normal, gap) in [whole(&flanks), whole(&turned), half] {
-        assert!((normal[0].abs() < 1e-15) && (normal[1] + 1.0).abs() < 1e-15, "{normal:?}");
-        assert!((gap - 0.1).abs() < 1e-15, "{gap}");
+fn a_node_over_two_flanks_has_their_mean() {
+    for rise in [0.3, 0.02, -0.3] {
+        let nodes = vec![
+            [-1.0, 0.1, 0.0],
+            [0.0, 0.1, 0.0],
+            [1.0, 0.1, 0.0],
+            [-1.0, rise, 0.0],
+            [0.0, 0.0, 0.0],
+            [1.0, rise, 0.0],
+        ];
+        let slave = [vec![0, 1], vec![1, 2]];
+        let flanks = [vec![4, 3], vec![5, 4]];
+        let turned = [flanks[1].clone(), flanks[0].clone()];
+        let of_node = |found: SurfacePairs| {
+            let pair = found.pairs.into_iter().find(|pair| pair.slave == 1).expect("a pair");
+            (pair.normal, pair.gap)
+        };
+        let whole = |flanks: &[Vec<usize>]| {
+            of_node(pair(2, &nodes, [&slave[..], flanks], &of_faces(vec![])).unwrap())
+        };
+        let half = of_faces(vec![SymmetryPlane::across(0, 0.0)]);
+        let half = of_node(pair(2, &nodes, [&slave[1..], &flanks[1..]], &half).unwrap());
+        for (normal, gap) in [whole(&flanks), whole(&turned), half] {
+            assert!(
+                normal[0].abs() < 1e-15 && (normal[1] + 1.0).abs() < 1e-15,
+                "{rise}: {normal:?}"
+            );
+            assert!((gap - 0.1).abs() < 1e-15, "{rise}: {gap}");
+        }
     }
 }
 
