@@ -3,11 +3,13 @@
     python3 tests/python/progress.py
 """
 
+import gc
 import os
 import signal
 import threading
 import time
 import unittest
+import weakref
 
 import numpy as np
 
@@ -85,6 +87,31 @@ class Progress(unittest.TestCase):
             with self.assertRaisesRegex(LookupError, "mine"):
                 call()
             self.assertEqual(len(calls), 1)
+
+    def test_calls_that_raise_are_forgotten(self):
+        """What a progress function holds goes when it has raised, been interrupted, or has cancelled."""
+        class Held:
+            pass
+
+        def call(end):
+            held = Held()
+
+            def progress(_, held=held):
+                return end()
+
+            try:
+                signorini.solve(*chain(), 0.01, 0.3, **self.slow, progress=progress)
+            except (LookupError, KeyboardInterrupt):
+                pass
+            return weakref.ref(held)
+
+        def fail():
+            raise LookupError("mine")
+
+        for end in fail, lambda: os.kill(os.getpid(), signal.SIGINT), lambda: True:
+            kept = call(end)
+            gc.collect()
+            self.assertIsNone(kept())
 
     def interrupted(self, progress):
         timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))

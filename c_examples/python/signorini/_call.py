@@ -66,7 +66,10 @@ class Call:
                 signal.signal(signal.SIGINT, previous)
         message = self.functions.last_error().decode()
         if self.error is not None:
-            raise self.error
+            try:
+                raise self.error
+            finally:
+                self.error = None  # it has the frame of this call, which would keep it and what it was given for ever
         self._interrupt()
         return status, message
 
