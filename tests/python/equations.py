@@ -412,6 +412,31 @@ class Decks(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "LINK,1,2: the first node lacks the direction that depends"):
             self.read(f"{deck}*MPC\nLINK,1,2\n", number=lambda node, direction: None)
 
+    def test_places_along_other_axes(self):
+        """A link between nodes at (0, 1, 0) and (1, 0, 0) lets both go aside together, along (1, -1, 0) nothing."""
+        link, polar = "*MPC\nLINK,1,2\n", "1,1.,90.,0.\n2,1.,0.,0.\n"
+        plain = "1,0.,1.,0.\n2,1.,0.,0.\n"
+        wanted = [(0, [3, 4, 1], [1.0, -1.0, 1.0])]
+        remedy = "not read: give coordinates, along the axes of the model"
+        decks = {"NODE, system = c": f"*NODE, system = c\n{polar}{link}", "NODE, NSET=N, SYSTEM=S": f"*NODE, NSET=N, SYSTEM=S\n{polar}{link}",
+                 "SYSTEM: 0,0,0,0,1,0": f"*System\n0,0,0,0,1,0\n*NODE\n{plain}{link}", "NMAP": f"*NODE\n{plain}*NMAP, NSET=N\n0,0,0,0,0,1\n{link}",
+                 "INSTANCE: 0,0,0,0,0,1,90.": f"*PART, NAME=P\n*NODE\n{plain}{link}*END PART\n*INSTANCE, NAME=I, PART=P\n1,0,0\n0,0,0,0,0,1,90.\n"}
+        for card, deck in decks.items():
+            with self.subTest(card):
+                with self.assertRaisesRegex(ValueError, rf"line \d+: \*{card}.*{remedy}"):
+                    self.read(deck)
+                self.assertEqual(self.read(deck, coordinates={1: (0, 1, 0), 2: (1, 0, 0)}), wanted)
+        for deck in (f"*NODE, NSET=ALL\n{plain}{link}", f"*NODE, SYSTEM=R\n{plain}{link}", f"*SYSTEM\n*NODE\n{plain}{plain}{link}",
+                     f"*PART, NAME=P\n*NODE\n{plain}*NODE\n3,0,0,0\n{link}*END PART\n*INSTANCE, NAME=I, PART=P\n1,0,0\n"):
+            self.assertEqual(self.read(deck), wanted)
+
+    def test_a_number_in_two_parts(self):
+        deck = "*PART, NAME=A\n*NODE\n1,0,0,0\n2,1,2,3\n*END PART\n*PART, NAME=B\n*NODE\n{},5,0,0\n*END PART\n*MPC\nPIN,1,2\n"
+        self.assertEqual(self.read(deck.format(3)), [(k, [3 + k], [1.0]) for k in range(3)])
+        for more in {}, {"coordinates": {1: (0, 0, 0), 2: (1, 2, 3)}}:
+            with self.assertRaisesRegex(ValueError, r"line 8: 1,5,0,0: node 1 is in \*PART, NAME=A too, .* numbers of their own"):
+                self.read(deck.format(1), **more)
+
     def test_what_is_wrong_is_named(self):
         for deck, part in (("*EQUATION\nx\n", "line 2: x: this is no number of terms"),
                            ("*EQUATION\n2\nSET,1,1.,3,1,1.\n", "line 3: SET,1,1.,3,1,1."),

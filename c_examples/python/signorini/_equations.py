@@ -9,6 +9,8 @@ from ._mpc import mpc
 from ._structures import EquationList, sized
 
 
+_OF_THE_MODEL = "give coordinates, along the axes of the model"
+_TURNED = 7  # numbers of an *INSTANCE that turns its part: two points of an axis, and an angle
 _ORTHOGONAL = 1e-3  # axes are orthogonal unit vectors to this: decks have few digits
 
 
@@ -128,8 +130,9 @@ def read_equations(path, number=None, coordinates=None):
     TIE, for small motions. Other types are refused by name.
     number: a function of node and direction, both as in the deck, that gives a dof number, or None if the node has no
     such direction; None: 3 * (node - 1) + direction - 1, without rotations.  coordinates: a dict of nodes and their
-    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, *INCLUDE and
-    *TRANSFORM are refused. BEAM is that of Abaqus, which turns with its node: what CalculiX calls so keeps a distance, as LINK.
+    places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, *INCLUDE, *TRANSFORM and
+    a number in two *PARTs are refused, and without coordinates *NODE, SYSTEM=C or S, *SYSTEM, *NMAP and turned *INSTANCEs.
+    BEAM is that of Abaqus, which turns with its node: what CalculiX calls so keeps a distance, as LINK.
     """
     cards = _Cards(path, number or _solid, coordinates)
     with open(path, encoding="utf-8", errors="replace") as deck:
@@ -151,6 +154,7 @@ class _Cards:
         self.places = {} if coordinates is None else coordinates
         self.reads_places = coordinates is None
         self.found, self.left, self.terms, self.card = [], 0, [], ""
+        self.part, self.parts = "", {}  # the *PART of these lines, and that of each node
 
     def fail(self, place, what):
         raise ValueError(f"{self.path}, line {place}: {what}") from None
@@ -167,18 +171,39 @@ class _Cards:
                                  "leave the card out")
             if self.card == "*INCLUDE":
                 self.fail(place, f"{line}: the file is not read: put its lines in this place, or read it by itself")
+            if self.card in ("*PART", "*ENDPART"):
+                self.part = line if self.card == "*PART" else ""
+            self.moved(place, line, words)
         elif self.card == "*EQUATION":
             self.equation(place, line, words)
         elif self.card == "*MPC":
             self.mpc(place, line, words)
-        elif self.card == "*NODE" and self.reads_places:
+        elif self.card == "*NODE":
             self.node(place, line, words)
+        elif self.card == "*SYSTEM" and self.reads_places:
+            self.fail(place, f"*SYSTEM: {line}: places in a system of their own are not read: {_OF_THE_MODEL}")
+        elif self.card == "*INSTANCE" and self.reads_places and len(words) >= _TURNED:
+            self.fail(place, f"*INSTANCE: {line}: places of a turned part are not read: {_OF_THE_MODEL}")
+
+    def moved(self, place, line, words):
+        """Refuses cards with which numbers of *NODE are no coordinates along the axes of the model."""
+        options = [word.upper().replace(" ", "") for word in words[1:]]
+        turned = [word for word in options if word.startswith("SYSTEM=") and word[len("SYSTEM="):][:1] != "R"]
+        if self.reads_places and (self.card == "*NODE" and turned or self.card == "*NMAP"):
+            self.fail(place, f"{line}: places in a system of their own are not read: {_OF_THE_MODEL}")
 
     def node(self, place, line, words):
         try:
-            self.places[int(words[0])] = [_real(word) if word else 0.0 for word in (words[1:4] + ["", ""])[:3]]
+            node, at = int(words[0]), [_real(word) if word else 0.0 for word in (words[1:4] + ["", ""])[:3]]
         except ValueError:
-            self.fail(place, f"{line}: this is no node with its coordinates")
+            if self.reads_places:
+                self.fail(place, f"{line}: this is no node with its coordinates")
+            return
+        if self.parts.setdefault(node, self.part) != self.part:
+            self.fail(place, f"{line}: node {node} is in {self.parts[node] or 'the deck before'} too, and equations do not tell "
+                             "which is meant: give nodes of all parts numbers of their own, as a flat deck has them")
+        if self.reads_places:
+            self.places[node] = at
 
     def mpc(self, place, line, words):
         words = [word for word in words if word]
