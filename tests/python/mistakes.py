@@ -195,6 +195,19 @@ class Mistakes(unittest.TestCase):
         self.assertEqual(warnings_of([8]), [])  # the slave alone
         self.assertEqual(warnings_of(left, axisymmetric=True), [])  # the axis of revolution
 
+    def test_warnings_name_the_line_that_calls(self):
+        springs, left, cell = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6]), {"quad": [[0, 1, 3, 2]]}
+        half = np.ones(8), np.arange(8), np.arange(9)
+        near, none = (signorini.pair_surfaces(SQUARE, slave, [[3, 2]]) for slave in ([[4, 5]], []))
+        calls = (lambda: Model.from_surfaces(springs, near, fixed=left),
+                 lambda: Model.from_surfaces(springs, {"one": none}),
+                 lambda: Model.from_meshes((half, half), (SQUARE[4:], cell), (SQUARE[:4], cell), fixed=left))
+        for call in calls:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                call()
+            self.assertEqual([(one.filename, one.lineno) for one in caught], [(__file__, call.__code__.co_firstlineno)])
+
 
 if __name__ == "__main__":
     print("| mistake | interface | status | sentence |\n|---|---|---|---|")

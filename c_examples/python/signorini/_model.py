@@ -21,7 +21,7 @@ from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import warn_of_planes
-from ._text import path_bytes, remark_bytes
+from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones
 
 _UNTOUCHED = np.iinfo(np.int32).min
@@ -257,15 +257,15 @@ class Model(Remade):
                             f"pair_obstacle returns, or a dict of them by the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         if zones and zones.remark:
-            warnings.warn(zones.remark, stacklevel=2)
+            tell(zones.remark)
         for name, one in (zones.contacts if zones else {None: contact}).items():
             warn_of_planes(one, fixed, name)
             zone = f"zone {name!r}: " if name else ""
             if not one.pairs or "all slave faces look away" in one.summary:
-                warnings.warn(zone + one.summary, stacklevel=2)
+                tell(zone + one.summary)
             if one.is_sector and equations is None:
-                warnings.warn(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "
-                              "equations=sector_equations(coordinates, sector), or those of your own", stacklevel=2)
+                tell(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "
+                     "equations=sector_equations(coordinates, sector), or those of your own")
         rows = (zones or contact).with_equations(equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
@@ -378,7 +378,7 @@ class Model(Remade):
         larger = case.gap - (self._zones or self.contact)._paired_gaps
         if not found or found.depth <= _PASS_BY * larger[np.isfinite(larger)].max(initial=0.0):
             return None
-        warnings.warn(found.sentence, stacklevel=3)
+        tell(found.sentence)
         return found
 
     def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,

@@ -1,8 +1,8 @@
 """Planes of symmetry that supports show, and that a pairing was not told."""
 
-import warnings
-
 import numpy as np
+
+from ._text import tell
 
 AXES = "xyz"
 
@@ -32,5 +32,5 @@ def warn_of_planes(contact, fixed, name=None):
         if np.ptp(places) <= rounding:
             of = f"zone {name!r}: " if name else ""
             place = 0.0 if abs(places[0]) <= rounding else places[0]
-            warnings.warn(f"{of}supports hold both sides across the plane {AXES[axis]} = {place:g}: if it is a plane of "
-                          f"symmetry, give symmetry=[({axis}, {place:g})] to pair_surfaces", stacklevel=4)
+            tell(f"{of}supports hold both sides across the plane {AXES[axis]} = {place:g}: if it is a plane of symmetry, give "
+                 f"symmetry=[({axis}, {place:g})] to pair_surfaces")

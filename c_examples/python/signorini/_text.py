@@ -1,6 +1,18 @@
-"""Text of the caller as C strings."""
+"""Text of the caller as C strings, and warnings for the caller."""
 
 import os
+import sys
+import warnings
+
+_PACKAGE = os.path.dirname(os.path.abspath(__file__))
+
+
+def tell(sentence):
+    """Warns at the line outside of the package that has led here."""
+    level, frame = 2, sys._getframe(1)
+    while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _PACKAGE:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(sentence, stacklevel=level)
 
 
 def path_bytes(path):
