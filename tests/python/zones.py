@@ -174,6 +174,9 @@ class Zones(unittest.TestCase):
         forces = [row.force[1] for row in result.table()]
         np.testing.assert_allclose(forces, 1.5 * p, atol=1e-9)
         self.assertIn("1 pairs of later zones are in those of the same nodes", result.contact.summary)
+        # Its slip is that of the first zone, at which a large threshold holds it.
+        stays = model.solve(load, g=100.0, slip0={"left": [0.5, 0.25], "right": 0.125})
+        np.testing.assert_allclose(stays.d[:, 1], [0.5, 0.25, 0.125], atol=1e-9)
         # The middle node has the mean of the gaps of both.
         gaps = {name: contact.gaps for name, contact in contacts.items()}
         np.testing.assert_array_equal(model.solve(load, gaps).d, result.d)
@@ -321,9 +324,9 @@ class CurvedCut(unittest.TestCase):
         load[:24, :2] += 1e-4 * ring[:, 1::-1] * [-1, 1]
         self.load = load.ravel()
 
-    def model(self, left, right):
+    def model(self, left, right, **more):
         """The model of zones with clearances."""
-        contacts = {name: signorini.pair_surfaces(self.at, self.halves[name], self.hub, clearance=clearance)
+        contacts = {name: signorini.pair_surfaces(self.at, self.halves[name], self.hub, clearance=clearance, **more)
                     for name, clearance in (("left", left), ("right", right))}
         return signorini.Model.from_surfaces(self.springs, contacts), contacts
 
@@ -381,6 +384,23 @@ class CurvedCut(unittest.TestCase):
         # One pair's slip, and one number for all.
         zeros = model.solve(self.load, mu=0.3, slip0={"left": [0, 0], "right": 0.0})
         np.testing.assert_array_equal(zeros.F, first.F)
+
+    def test_slips_of_zones_are_turned_back(self):
+        """Ties go where slip0 says, which is a place in space: that of a zone's parts, and of all pairs."""
+        model, contacts = self.model(-0.02, -0.02, tangent=[1.0, 2.0, 3.0])
+        slips = 1e-3 * np.sin(np.arange(2.0 * model.pairs)).reshape(-1, 2)
+        tied = model.solve(self.load, law="tied", slip0=slips)
+        parts = {name: tied.zone(name) for name in contacts}
+        again = model.solve(self.load, law="tied", slip0={name: part.d[:, 1:] for name, part in parts.items()})
+        turned = 0
+        for name, contact in contacts.items():
+            place = tied.contact.places[name]
+            part = parts[name]
+            for along, frames in (part.d[:, 1:], part.frames), (again.d[place, 1:], model.frames[place]):
+                moved = np.einsum("pi,pij->pj", along, frames[:, 1:])
+                np.testing.assert_allclose(moved, np.einsum("pi,pij->pj", slips[place], model.frames[place, 1:]), atol=1e-12)
+            turned += np.sum(abs(part.d[:, 1:] - slips[place]) > 1e-5)
+        self.assertGreater(turned, 0)
 
 
 if __name__ == "__main__":

@@ -143,15 +143,26 @@ class Zones(Remade):
         """Numbers for each pair, count of them, from those of each zone by name; other values as they are.
 
         A pair of several zones has the numbers of the first, but the mean of their gaps, by area, without infinite ones.
+        slip0 of a zone counts along the tangents of its parts of results.
         """
         if not isinstance(values, dict):
             return values
         self._check(what, values)
         parts = [self._part(f"{what}[{name!r}]", values[name], contact.pairs, count, count == 1 or what == "slip0")
                  for name, contact in self.contacts.items()]
+        if what == "slip0":
+            parts = [self._turned_back(name, part) for name, part in zip(self.contacts, parts)]
         own = np.concatenate(parts)
         found = own[self._first]
         return self._mean(own) if what == "gap" else found
+
+    def _turned_back(self, name, slips):
+        """Slips of a zone's pairs along the tangents of its parts, along those of joined pairs."""
+        slips, shared = slips.reshape(-1, self.dim - 1).copy(), np.flatnonzero(self._shares[name] != 1)
+        if len(shared):
+            _, turn = self._leaning(self.contacts[name], shared, self._frames[self.places[name][shared]])
+            slips[shared] = np.einsum("pij,pi->pj", turn, slips[shared])
+        return slips
 
     def _mean(self, gaps):
         """The mean gap of each pair, by area: of the zones that have an obstacle there, which one with an infinite gap lacks."""
