@@ -99,6 +99,56 @@ class Zones(unittest.TestCase):
                 clearance = zones[name].fields(part, gap=np.full(2, own)).clearance[nodes]
                 np.testing.assert_allclose(clearance, 0, atol=1e-12)
 
+    def line(self, K):
+        """A line over a plane in two zones, and its model; K: of each node in (u_x, u_y), d = (-u_y, u_x)."""
+        x = np.array([[0, 0], [1, 0], [2, 0.0]])
+        plane = signorini.Plane((0, 0), (0, 1))
+        zones = {name: signorini.pair_obstacle(x, [[node, node + 1]], plane) for name, node in (("left", 0), ("right", 1))}
+        rows = 2 * np.repeat(np.arange(3), 4) + np.tile([0, 1], 6)
+        return zones, signorini.Model.from_surfaces((np.tile(np.ravel(K), 3), rows, 2 * np.arange(7)), zones)
+
+    def test_parts_have_the_gaps_and_slips_of_their_case(self):
+        """Springs of 1, pushed by (1, -2) over gaps; thresholds of 1 / 4 leave motions of 3 / 4. The middle pair has the slip0 of
+        the left zone."""
+        zones, model = self.line(np.eye(2))
+        gap, slip0 = {"left": 0.25, "right": 0.5}, {"left": 0.125, "right": 0.375}
+        load = np.tile([1.0, -2.0], 3)
+        solved = model.solve(load, gap, g=0.25, slip0=slip0, penetration=False)
+        gap["left"] = 7.0  # a caller's dict for the next step
+        measured = model.certify(load, {"left": 0.25, "right": 0.5}, g=0.25, slip0=slip0, d=solved.d)
+        slips, work = [0.625, 0.625, 0.375], {"left": 0.25 * 0.625 * 1.5, "right": 0.25 * (0.625 / 2 + 0.375)}
+        for result in solved, measured, pickle.loads(pickle.dumps(solved))._replace(contact=solved.contact):
+            self.assertEqual(result.status, Status.SOLVED)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "line.vtu")
+                result.contact.write(path, {"line": [[0, 1], [1, 2]]}, result)
+                written = arrays_of(path)
+            np.testing.assert_allclose(written["clearance"], 0, atol=1e-9)
+            np.testing.assert_allclose(written["slip"][:, 0], slips, atol=1e-9)
+            for (name, contact), nodes in zip(zones.items(), ([0, 1], [1, 2])):
+                part = result.zone(name)
+                fields = contact.fields(part)
+                np.testing.assert_allclose(fields.clearance[nodes], 0, atol=1e-9)
+                np.testing.assert_allclose(fields.slip[nodes, 0], np.take(slips, nodes), atol=1e-9)
+                self.assertAlmostEqual(contact.resultant(part).friction_work, work[name])
+                np.testing.assert_allclose(contact.fields(part, slip0=0.0, gap=9.0).slip[nodes, 0], 0.75, atol=1e-9)
+        alone = signorini.Model.from_surfaces((np.ones(6), np.arange(6), np.arange(7)), {"left": zones["left"]})
+        result = alone.solve(load, {"left": 0.75}, 0.0, penetration=False)
+        for given in result, result.zone("left"), alone.solve(load, 0.75, 0.0, penetration=False):
+            np.testing.assert_allclose(zones["left"].fields(given).clearance, 0, atol=1e-9)
+
+    def test_a_second_solution_has_the_gaps_of_its_case(self):
+        """Klarbring's pair at each node, moved by the gap there: a mean one in the middle."""
+        zones, model = self.line([[1, -1], [-1, 2]])
+        gap, means = {"left": 0.25, "right": 0.5}, np.array([0.25, 0.375, 0.5])
+        load = np.column_stack([1.5 + means, -1 - 2 * means]).ravel()
+        result = model.solve(load, gap, 2.0, search="others", penetration=False)
+        self.assertIsNotNone(result.second)
+        for one in result, result.second:
+            clearance = means + model.recover(one.d, load)[1::2]
+            for (name, contact), nodes in zip(zones.items(), ([0, 1], [1, 2])):
+                np.testing.assert_allclose(contact.fields(one.zone(name)).clearance[nodes], clearance[nodes], atol=1e-9)
+
     def test_numbers_of_each_zone(self):
         """A push that friction holds in one zone slides in the other."""
         self.load[[0, 2]] = 0.5  # the upper line alone

@@ -359,13 +359,20 @@ class Model(Remade):
             words = self._functions.status_string(code).decode()
             if code != 0 and not told:  # the library's sentence is of the first of them
                 words, told = message.removeprefix(f"case {c}: "), True
-            case, contact = data if cases is None else data.of(c), self._zones or self.contact
+            case = data if cases is None else data.of(c)
             result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
-            passed = self._penetration(case, result) if penetration and contact else None
-            gaps = copy.copy(gap) if isinstance(gap, dict) else case.gap
-            given = gaps if self._zones and gap is not None else None
-            results.append(result._replace(contact=contact, penetration=passed, gaps=given))
+            passed = self._penetration(case, result) if penetration and self.contact else None
+            results.append(self._of_case(result._replace(penetration=passed), case, gap))
         return results[0] if cases is None else results
+
+    def _of_case(self, result, case, gap):
+        """A result with its contact and with the slip0 and the gap, as a caller gave it, of its case."""
+        if not self.contact:
+            return result
+        gaps = None if gap is None else self._zones.kept_gaps(gap) if isinstance(gap, dict) else case.gap.copy()
+        slip0 = None if case.slip0 is None else case.slip0.reshape(self.pairs, self.dim - 1).copy()
+        second = result.second and self._of_case(result.second, case, gap)
+        return result._replace(contact=self._zones or self.contact, second=second, gaps=gaps, slip0=slip0)
 
     def _penetration(self, case, result):
         """What has passed through without a pair in a solution of a Case, of which it warns."""
@@ -392,7 +399,8 @@ class Model(Remade):
         F = components("F", F, self.pairs, self.dim, optional=True)
         if F is None and (self.kind == ModelKind.FLEXIBILITY or self._data.dependent):
             raise TypeError("F is None: give the forces too, d does not determine them")
-        return self.certify_case(case, components("d", d, self.pairs, self.dim), tolerance, F)
+        found = self.certify_case(case, components("d", d, self.pairs, self.dim), tolerance, F)
+        return self._of_case(found, case, gap)
 
     def prove(self, f, gap, mu=None, *, d, state=None, g=None, law=None, friction=None, slip0=None,
               prescribed=None):
@@ -475,8 +483,7 @@ class Model(Remade):
     def certify_case(self, case, d, tolerance, F=None):
         """Result of certify, of a Case and d in the library's layout."""
         with self._host:
-            found = certified(self._functions, [self._handle, *case.arguments()], tolerance, d.copy(), F)
-        return found._replace(contact=self._zones or self.contact)
+            return certified(self._functions, [self._handle, *case.arguments()], tolerance, d.copy(), F)
 
     def prove_case(self, case, d, state):
         """Result of prove, of a Case and d in the library's layout."""

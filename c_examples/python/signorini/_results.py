@@ -21,7 +21,7 @@ memory: bytes that the reduction needs in all, told before they are taken; other
 """
 
 _Fields = namedtuple("_Fields", "d F state status message report motion second radius_d radius_F "
-                     "escape contact penetration frames gaps", defaults=(None, None, None, None, None, None, None))
+                     "escape contact penetration frames gaps slip0", defaults=8 * (None,))
 
 
 class Result(_Fields):
@@ -45,7 +45,8 @@ class Result(_Fields):
     without a pair, of which solve warns; None: nothing has.
     frames: of a zone that shares pairs with others, where they cut a smooth surface, normal and tangents of each pair, as
     Model.frames has them; None: those of contact.
-    gaps: of a model with several zones those of the case, by zone or for all pairs; None: those of the contacts.
+    gaps, slip0: with pairs from surfaces those of the case, gaps of several zones by zone or for all pairs; None: the case had
+    none. fields, resultant and write take them.
 
     A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
     """
@@ -60,13 +61,14 @@ class Result(_Fields):
         """The part of a zone of Model.from_surfaces: a Result, whose contact is that zone's SurfacePairs.
 
         The force of a pair that zones share, where they cut a smooth surface, is shared by their areas, and its d counts
-        from the gap of the zone.
+        from the gap of the zone. Such a pair has one slip0, that of the first of its zones, which the part of each has.
         """
         return self._zones().of(self, name)
 
     def table(self):
         """Pairs by state, pressed area and force of each zone: a list of (zone, pairs, open, slip, stick,
-        pressed_area, force), named so."""
+        pressed_area, force), named so. Pairs that zones share are in the rows of each, with their parts of the force; the table
+        of the C interface has them in the first zone alone."""
         return self._zones().table(self)
 
     def _zones(self):

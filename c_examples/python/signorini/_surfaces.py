@@ -152,7 +152,7 @@ class SurfacePairs(Remade):
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
-    gaps are yours to change: solve, fields and write take them where they are given none.
+    gaps are yours to change: solve, fields and write take them where neither they nor the case of a result are given any.
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
     whose pairs share its row, (k, 2); folded_distances: how far away that is, (k,).  uncovered: slave faces
@@ -280,7 +280,8 @@ class SurfacePairs(Remade):
     def fields(self, result, *, slip0=None, gap=None):
         """Pressure, traction, clearance, slip and state at all nodes: Fields.
 
-        result: what Model.solve returned.  slip0: of that step.  gap: that of the step; None: gaps.
+        result: what Model.solve returned.  slip0, gap: those of the step; None: those of result, and if its case had none
+        zeros and gaps. Leave slip0 out for a part of a result: a pair that zones share has that of the first of them.
         """
         count, dim = self._coordinates.shape
         found = Fields(np.zeros(count), np.zeros((count, dim)), np.zeros(count),
@@ -300,7 +301,10 @@ class SurfacePairs(Remade):
         return found
 
     def resultant(self, result, point=None, *, slip0=None):
-        """Force and moment on the slave's body about a point (D,), None: the origin: Resultant."""
+        """Force and moment on the slave's body about a point (D,), None: the origin: Resultant.
+
+        result, slip0: as for fields.
+        """
         _, slip0, d, F, _ = self._results(result, slip0, None)
         asked = f"a place, shape {(self.dim,)}"
         point = fit("point", point, [(self.dim,)], asked, optional=True)
@@ -365,10 +369,10 @@ class SurfacePairs(Remade):
         """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
 
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
-        returns them. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
+        returns them.  slip0, gap: as for fields. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
         normals: result.contact.write of all zones has those of the pairs.
         """
-        self._write(path, cells, self, result, u, slip0, self.gaps if gap is None else gap)
+        self._write(path, cells, self, result, u, slip0, gap)
 
     def _write(self, path, cells, of, result, u, slip0, gap):
         """Writes the mesh of SurfacePairs and the fields."""
@@ -381,11 +385,16 @@ class SurfacePairs(Remade):
         if not hasattr(result, "d"):
             raise TypeError(f"result is a {type(result).__name__}: give what Model.solve returned")
         pairs, dim = self.pairs, self.dim
+        d, F = (components(name, getattr(result, name), pairs, dim) for name in ("d", "F"))
+        slip0 = getattr(result, "slip0", None) if slip0 is None else slip0
+        known = getattr(result, "gaps", None)
+        if isinstance(known, dict):  # of all zones, which are these pairs if it is one
+            known = next(iter(known.values())) if len(known) == 1 else None
+        gap = next(one for one in (gap, known, self.gaps) if one is not None)
         return (
-            per_pair("gap", self.gaps if gap is None else gap, pairs, dim),
+            per_pair("gap", gap, pairs, dim),
             components("slip0", slip0, pairs, dim, tangential=True, scalar=True, optional=True),
-            components("d", result.d, pairs, dim), components("F", result.F, pairs, dim),
-            np.require(result.state, np.int32, ["C", "ALIGNED"]),
+            d, F, np.require(result.state, np.int32, ["C", "ALIGNED"]),
         )
 
     def _do(self, function, *arguments):

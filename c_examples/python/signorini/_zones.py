@@ -201,7 +201,7 @@ class Zones(Remade):
         """
         self._check("zone", {**dict.fromkeys(self.contacts), name: None})
         place, contact = self.places[name], self.contacts[name]
-        cut = ("d", "F", "state", "motion", "radius_d", "radius_F", "escape")
+        cut = ("d", "F", "state", "motion", "radius_d", "radius_F", "escape", "slip0")
         parts = {field: None if getattr(result, field) is None else getattr(result, field)[place] for field in cut}
         share = self._shares[name]
         shared, frames = np.flatnonzero(share != 1), None
@@ -213,11 +213,18 @@ class Zones(Remade):
             for field in ("d", "F", "motion", "escape"):
                 if parts[field] is not None:
                     parts[field][shared, 1:] = np.einsum("pij,pj->pi", turn, parts[field][shared, 1:])
+            if parts["slip0"] is not None:
+                parts["slip0"][shared] = np.einsum("pij,pj->pi", turn, parts["slip0"][shared])
             with np.errstate(invalid="ignore"):
                 lifted = self._own_gaps(name, result.gaps)[shared] - self._all_gaps(result.gaps)[place[shared]]
             parts["d"][shared, 0] += np.where(np.isfinite(lifted), lifted, 0.0)  # infinite ones never touch
         second = None if result.second is None else self.of(result.second, name)
-        return result._replace(contact=contact, second=second, frames=frames, gaps=None, **parts)
+        gaps = None if result.gaps is None else self._own_gaps(name, result.gaps)
+        return result._replace(contact=contact, second=second, frames=frames, gaps=gaps, **parts)
+
+    def kept_gaps(self, gap):
+        """Copies of the gaps of a step, by zone."""
+        return {name: self._own_gaps(name, gap).copy() for name in self.contacts}
 
     def _all_gaps(self, gap):
         """The gaps of all pairs in a step."""
@@ -245,9 +252,9 @@ class Zones(Remade):
     def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
         """Writes the mesh of the zones with the fields of all to one file; see SurfacePairs.write.
 
-        slip0, gap: those of the step, in arrays for all pairs or dicts by the names of zones.
+        slip0, gap: those of the step, in arrays for all pairs or dicts by the names of zones; None: those of result.
         """
-        gap = self._all_gaps(gap)
+        gap = self._all_gaps(result.gaps if gap is None else gap)
         first = next(iter(self.contacts.values()))
         self._write(path, cells, first, result, u, self.joined("slip0", slip0, self.dim - 1), gap)
 
