@@ -108,6 +108,16 @@ class Rows(unittest.TestCase):
             contact.penetration(u)
         self.assertIsNone(contact.penetration(model.extended(u)))
 
+    def test_a_large_number_costs_nothing(self):
+        """A block of 2 nodes falls on a plane, and one of its directions has a second number, the largest that there is."""
+        contact = signorini.pair_obstacle([[0, 0.5], [1, 0.5]], [[0, 1]], signorini.Plane((0, 0), (0, 1)))
+        equations = [(2**62, [2**61], [2.0]), (2**61, [1], [1.0])]
+        model = signorini.Model.from_surfaces((np.ones(4), np.arange(4), np.arange(5)), contact, equations=equations)
+        self.assertEqual(model.solve([0, -1.0, 0, -1.0], mu=0.3).status, signorini.Status.SOLVED)
+        few = signorini.Model.from_surfaces((np.ones(4), np.arange(4), np.arange(5)), contact,
+                                            equations=[(7, [5], [2.0]), (5, [1], [1.0])])
+        np.testing.assert_array_equal(few.extended([1.0, 2, 3, 4]), [1, 2, 3, 4, 0, 2, 0, 4])
+
     def test_directions_of_any_length_and_turns_that_are_none(self):
         np.testing.assert_allclose(signorini.section_equations([[0, 1, 2]], [[3, 4, 5]], 6, [0, 0, 2])[2][2], [1, -1])
         with self.assertRaisesRegex(ValueError, "axis is .*: give the direction across the section"):

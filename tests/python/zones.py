@@ -75,6 +75,34 @@ class Zones(unittest.TestCase):
             warnings.simplefilter("error")
             self.assertIsNone(model.solve(self.load, {"above": [], "below": gaps + 4.0}, 0.3).penetration)
 
+    def test_larger_gaps_let_pass_by_where_they_are(self):
+        """Two lines of five nodes on springs over a fixed line, far from each other; the middle of each has a pair, and the others
+        are beyond its search distance and fall through by 1 - 0.2."""
+        one = np.array([[0, 0.2], [1, 0.2], [2, 0.01], [3, 0.2], [4, 0.2], [0, 0], [2, 0], [4, 0.0]])
+        at = np.vstack([one, one + [10, 0]])
+        lines = np.array([[0, 1], [1, 2], [2, 3], [3, 4]])
+        contacts = {name: signorini.pair_surfaces(at, first + lines, first + np.array([[6, 5], [7, 6]]), search_distance=0.05,
+                                                  pairing="node_to_surface")
+                    for name, first in (("left", 0), ("right", 8))}
+        fixed = np.concatenate([np.arange(2 * first + 10, 2 * first + 16) for first in (0, 8)])
+        load = np.zeros((16, 2))
+        load[[0, 1, 3, 4, 8, 9, 11, 12], 1] = -1
+        springs = np.ones(32), np.arange(32), np.arange(33)
+        both = {"both": signorini.pair_surfaces(at, np.vstack([lines, 8 + lines]), [[6, 5], [7, 6], [14, 13], [15, 14]],
+                                                search_distance=0.05, pairing="node_to_surface")}
+        # Of the one that has no larger gap it is told, by zone and within a zone.
+        for zones, gaps in ((contacts, {"left": 0.0, "right": 1.0}), (both, {"both": [0.0, 1.0]})):
+            model = signorini.Model.from_surfaces(springs, zones, fixed=fixed)
+            load[8:13, 1] *= 0.9  # the left one falls deeper
+            with self.assertWarnsRegex(UserWarning, "have passed"):
+                found = model.solve(load.ravel(), gaps, 0.0).penetration
+            self.assertAlmostEqual(found.point[1], 0.2 - 1)
+            self.assertLess(found.point[0], 5)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                wide = {name: 1.0 for name in zones}
+                self.assertIsNone(model.solve(load.ravel(), wide, 0.0).penetration)
+
     def test_gaps_of_a_step_at_a_cut(self):
         """A line over a plane in two zones, each node on a spring of 1 and pressed by 1. A zone without an obstacle takes none of
         the other's; parts of a result have the clearances of the step's gaps, from those of their own zone."""

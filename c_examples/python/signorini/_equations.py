@@ -48,16 +48,27 @@ class Equations:
         return [(int(of), self.dofs[begin:end], self.coefficients[begin:end])
                 for of, (begin, end) in zip(self.dependent, ends)]
 
-    def extended(self, u):
-        """u, and behind its end what the equations give to those that depend on it."""
+    def extended(self, u, enough=None):
+        """u, and behind its end what the equations give to those that depend on it; so many entries are enough, None: all.
+
+        The work is that of the equations, whatever their numbers.
+        """
         size = 1 + max(len(u) - 1, self.dependent.max(initial=-1), self.dofs.max(initial=-1))
-        found, beyond = np.concatenate([u, np.zeros(size - len(u))]), self.dependent >= len(u)
-        rows = np.repeat(np.arange(len(self.dependent)), np.diff(self.start))
+        size = size if enough is None else max(len(u), min(size, enough))
+        known, places = np.unique(np.concatenate([self.dependent, self.dofs]), return_inverse=True)
+        dependent, dofs = np.split(places, [len(self.dependent)])
+        found, has_row = np.zeros(len(known)), known < len(u)
+        found[has_row] = u[known[has_row]]
+        beyond, rows = ~has_row[dependent], np.repeat(np.arange(len(dependent)), np.diff(self.start))
         while True:  # dependents may depend on others, in no circle
-            sums = np.bincount(rows, self.coefficients * found[self.dofs], len(self.dependent))
-            if np.array_equal(found[self.dependent[beyond]], sums[beyond], equal_nan=True):
-                return found
-            found[self.dependent[beyond]] = sums[beyond]
+            sums = np.bincount(rows, self.coefficients * found[dofs], len(dependent))
+            if np.array_equal(found[dependent[beyond]], sums[beyond], equal_nan=True):
+                break
+            found[dependent[beyond]] = sums[beyond]
+        whole = np.concatenate([u, np.zeros(size - len(u))])
+        asked = known < size
+        whole[known[asked]] = found[asked]
+        return whole
 
 
 def turned_equations(dofs, own, turn):

@@ -25,7 +25,6 @@ from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones
 
 _UNTOUCHED = np.iinfo(np.int32).min
-_PASS_BY = 2.0  # where gaps are larger than those of the coordinates, surfaces pass by so many times the difference
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
 _NO_STIFFNESS = {
     ModelKind.STIFFNESS: "the rows of pairs ({dependent} of them) follow from those of other pairs or from supports",
@@ -332,8 +331,8 @@ class Model(Remade):
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.
         penetration: with pairs from surfaces, look if parts without a pair have passed through the other side: a
-        warning, and Result.penetration. Where gap is larger than that of the pairing by some length, less than twice
-        that is none.
+        warning, and Result.penetration. Where gap is larger than that of the pairing by some length, at pairs around the
+        deepest place of a zone, less than twice that is none.
         """
         f = reals("f", f)
         cases = len(f) if f.ndim == 2 and f.shape[1] == self.host_size else None
@@ -369,7 +368,7 @@ class Model(Remade):
         """A result with its contact and with the slip0 and the gap, as a caller gave it, of its case."""
         if not self.contact:
             return result
-        gaps = None if gap is None else self._zones.kept_gaps(gap) if isinstance(gap, dict) else case.gap.copy()
+        gaps = None if gap is None else self._zones._kept_gaps(gap) if isinstance(gap, dict) else case.gap.copy()
         slip0 = None if case.slip0 is None else case.slip0.reshape(self.pairs, self.dim - 1).copy()
         second = result.second and self._of_case(result.second, case, gap)
         return result._replace(contact=self._zones or self.contact, second=second, gaps=gaps, slip0=slip0)
@@ -380,12 +379,11 @@ class Model(Remade):
             return None
         u = np.zeros(self.host_size)
         self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
-        found = (self._zones or self.contact).penetration(self.extended(u))
-        # Larger gaps of the caller are of surfaces that the coordinates do not show, infinite ones of pairs that never touch.
-        larger = case.gap - (self._zones or self.contact)._paired_gaps
-        if not found or found.depth <= _PASS_BY * larger[np.isfinite(larger)].max(initial=0.0):
-            return None
-        tell(found.sentence)
+        contact = self._zones or self.contact
+        u = self._equations.extended(u, contact._least) if self._equations else u
+        found = contact._passed(u, case.gap - contact._paired_gaps)
+        if found:
+            tell(found.sentence)
         return found
 
     def certify(self, f, gap, mu=None, *, d, F=None, g=None, law=None, friction=None, slip0=None,

@@ -17,6 +17,8 @@ from ._sector import Period, checked, ways_of
 from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
+_PASS_BY = 2.0  # where gaps are larger than those of the coordinates, surfaces pass by so many times the difference
+
 Plane = namedtuple("Plane", "point outward")
 Plane.__doc__ = """A rigid half space, in 2D a half plane.
 
@@ -357,6 +359,29 @@ class SurfacePairs(Remade):
             f"search_distance")
         return Penetration(found.points, found.depth, np.array(found.point), found.face, found.node,
                            found.master_face, sentence)
+
+    def _passed(self, u, larger, elsewhere=0.0):
+        """The Penetration, unless it is within what gaps of a case that are larger by so much around its face let pass.
+
+        Larger gaps are of surfaces that the coordinates do not show, infinite ones of pairs that never touch.
+        elsewhere: what those of other zones are larger by, which stands for surfaces that have no pairs.
+        """
+        found = self.penetration(u)
+        if not found:
+            return None
+        allowed = larger[self._around(found.face, np.isfinite(larger))].max(initial=0.0) if self.pairs else elsewhere
+        return found if found.depth > _PASS_BY * allowed else None
+
+    def _around(self, face, of):
+        """Which pairs, a mask within another one, stand on slave faces that share a node with one; without any, the nearest."""
+        nodes, own = np.concatenate(self.slave_faces), self.slave_faces[face]
+        faces = np.repeat(np.arange(len(self.slave_faces)), list(map(len, self.slave_faces)))
+        beside = np.isin(faces, faces[np.isin(nodes, own)])
+        around = of & np.isin(self.nodes, nodes[beside])
+        if around.any() or not of.any():
+            return around
+        away = np.linalg.norm(self.points - self.coordinates[own].mean(axis=0), axis=1)
+        return of & (away == away[of].min())
 
     def _displacements(self, u):
         u = np.require(reals("u", u), np.float64, ["C", "ALIGNED"])

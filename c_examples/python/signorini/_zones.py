@@ -222,7 +222,7 @@ class Zones(Remade):
         gaps = None if result.gaps is None else self._own_gaps(name, result.gaps)
         return result._replace(contact=contact, second=second, frames=frames, gaps=gaps, **parts)
 
-    def kept_gaps(self, gap):
+    def _kept_gaps(self, gap):
         """Copies of the gaps of a step, by zone."""
         return {name: self._own_gaps(name, gap).copy() for name in self.contacts}
 
@@ -260,8 +260,17 @@ class Zones(Remade):
 
     def penetration(self, u):
         """The deepest Penetration of all zones, or None."""
-        found = [contact.penetration(u) for contact in self.contacts.values()]
-        return max((one for one in found if one), key=lambda one: one.depth, default=None)
+        return _deepest(contact.penetration(u) for contact in self.contacts.values())
+
+    def _passed(self, u, larger):
+        """The deepest Penetration of those zones where gaps of a case, larger than those of the pairing by so much, let none pass."""
+        most = larger[np.isfinite(larger)].max(initial=0.0)
+        return _deepest(contact._passed(u, larger[self.places[name]], most) for name, contact in self.contacts.items())
+
+    @property
+    def _least(self):
+        """Entries of a displacement vector that has all nodes."""
+        return max(contact._least for contact in self.contacts.values())
 
     def table(self, result):
         """A ZoneSums for each zone."""
@@ -272,3 +281,8 @@ class Zones(Remade):
             count = {state: int((part.state == state).sum()) for state in (State.OPEN, State.SLIP, State.STICK)}
             sums.append(ZoneSums(name, contact.pairs, *count.values(), found.pressed_area, found.force))
         return sums
+
+
+def _deepest(found):
+    """The deepest of penetrations, each of which may be None."""
+    return max(filter(None, found), key=lambda one: one.depth, default=None)
