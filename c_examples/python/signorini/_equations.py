@@ -53,7 +53,7 @@ class Equations:
 
         The work is that of the equations, whatever their numbers.
         """
-        size = 1 + max(len(u) - 1, self.dependent.max(initial=-1), self.dofs.max(initial=-1))
+        size = 1 + int(max(len(u) - 1, self.dependent.max(initial=-1), self.dofs.max(initial=-1)))
         size = size if enough is None else max(len(u), min(size, enough))
         known, places = np.unique(np.concatenate([self.dependent, self.dofs]), return_inverse=True)
         dependent, dofs = np.split(places, [len(self.dependent)])
