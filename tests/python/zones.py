@@ -90,7 +90,7 @@ class Zones(unittest.TestCase):
         springs = np.ones(32), np.arange(32), np.arange(33)
         both = {"both": signorini.pair_surfaces(at, np.vstack([lines, 8 + lines]), [[6, 5], [7, 6], [14, 13], [15, 14]],
                                                 search_distance=0.05, pairing="node_to_surface")}
-        # Of the one that has no larger gap it is told, by zone and within a zone.
+        # Penetration without a larger gap is told, by zone and within a zone.
         for zones, gaps in ((contacts, {"left": 0.0, "right": 1.0}), (both, {"both": [0.0, 1.0]})):
             model = signorini.Model.from_surfaces(springs, zones, fixed=fixed)
             load[8:13, 1] *= 0.9  # the left one falls deeper
@@ -102,6 +102,13 @@ class Zones(unittest.TestCase):
                 warnings.simplefilter("error")
                 wide = {name: 1.0 for name in zones}
                 self.assertIsNone(model.solve(load.ravel(), wide, 0.0).penetration)
+        # A zone without a pair stands on bodies of its own.
+        at[2, 1] = 0.2
+        none = signorini.pair_surfaces(at, lines, [[6, 5], [7, 6]], search_distance=0.05, pairing="node_to_surface")
+        with self.assertWarnsRegex(UserWarning, "no pairs"):
+            model = signorini.Model.from_surfaces(springs, {"left": none, "right": contacts["right"]}, fixed=fixed)
+        with self.assertWarnsRegex(UserWarning, "have passed"):
+            self.assertLess(model.solve(load.ravel(), {"left": 0.0, "right": 1.0}, 0.0).penetration.point[0], 5)
 
     def test_gaps_of_a_step_at_a_cut(self):
         """A line over a plane in two zones, each node on a spring of 1 and pressed by 1. A zone without an obstacle takes none of
@@ -142,7 +149,7 @@ class Zones(unittest.TestCase):
         gap, slip0 = {"left": 0.25, "right": 0.5}, {"left": 0.125, "right": 0.375}
         load = np.tile([1.0, -2.0], 3)
         solved = model.solve(load, gap, g=0.25, slip0=slip0, penetration=False)
-        gap["left"] = 7.0  # a caller's dict for the next step
+        gap["left"] = 7.0  # the caller's dict changes for the next step
         measured = model.certify(load, {"left": 0.25, "right": 0.5}, g=0.25, slip0=slip0, d=solved.d)
         slips, work = [0.625, 0.625, 0.375], {"left": 0.25 * 0.625 * 1.5, "right": 0.25 * (0.625 / 2 + 0.375)}
         for result in solved, measured, pickle.loads(pickle.dumps(solved))._replace(contact=solved.contact):

@@ -364,7 +364,7 @@ class SurfacePairs(Remade):
         """The Penetration, unless it is within what gaps of a case that are larger by so much around its face let pass.
 
         Larger gaps are of surfaces that the coordinates do not show, infinite ones of pairs that never touch.
-        elsewhere: what those of other zones are larger by, which stands for surfaces that have no pairs.
+        elsewhere: what those of zones at the same nodes are larger by, which stands for surfaces that have no pairs.
         """
         found = self.penetration(u)
         if not found:
@@ -372,8 +372,14 @@ class SurfacePairs(Remade):
         allowed = larger[self._around(found.face, np.isfinite(larger))].max(initial=0.0) if self.pairs else elsewhere
         return found if found.depth > _PASS_BY * allowed else None
 
+    def _touches(self, other):
+        """Tells if faces of both have a node in common."""
+        mine, others = ([node for side in one._made_of[2:4] if isinstance(side, _Faces) for node in side.nodes]
+                        for one in (self, other))
+        return not set(mine).isdisjoint(others)
+
     def _around(self, face, of):
-        """Which pairs, a mask within another one, stand on slave faces that share a node with one; without any, the nearest."""
+        """A mask, within another one, of the pairs on slave faces that share a node with a face; of the nearest if there are none."""
         nodes, own = np.concatenate(self.slave_faces), self.slave_faces[face]
         faces = np.repeat(np.arange(len(self.slave_faces)), list(map(len, self.slave_faces)))
         beside = np.isin(faces, faces[np.isin(nodes, own)])
@@ -413,7 +419,7 @@ class SurfacePairs(Remade):
         d, F = (components(name, getattr(result, name), pairs, dim) for name in ("d", "F"))
         slip0 = getattr(result, "slip0", None) if slip0 is None else slip0
         known = getattr(result, "gaps", None)
-        if isinstance(known, dict):  # of all zones, which are these pairs if it is one
+        if isinstance(known, dict):  # one zone has all of them
             known = next(iter(known.values())) if len(known) == 1 else None
         gap = next(one for one in (gap, known, self.gaps) if one is not None)
         return (

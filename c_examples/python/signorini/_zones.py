@@ -264,8 +264,14 @@ class Zones(Remade):
 
     def _passed(self, u, larger):
         """The deepest Penetration of those zones where gaps of a case, larger than those of the pairing by so much, let none pass."""
-        most = larger[np.isfinite(larger)].max(initial=0.0)
-        return _deepest(contact._passed(u, larger[self.places[name]], most) for name, contact in self.contacts.items())
+        return _deepest(contact._passed(u, larger[self.places[name]], 0.0 if contact.pairs else self._beside(contact, larger))
+                        for name, contact in self.contacts.items())
+
+    def _beside(self, contact, larger):
+        """The largest finite number of the pairs of zones that share nodes with a contact."""
+        places = [self.places[name] for name, other in self.contacts.items() if contact._touches(other)]
+        found = larger[np.concatenate(places)]
+        return found[np.isfinite(found)].max(initial=0.0)
 
     @property
     def _least(self):
