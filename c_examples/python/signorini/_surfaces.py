@@ -400,8 +400,8 @@ class SurfacePairs(Remade):
         """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
 
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
-        returns them.  slip0, gap: as for fields. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
-        normals: result.contact.write of all zones has those of the pairs.
+        returns them.  slip0, gap: as for fields. Of one of the zones that cut a curved surface, traction and slip at the cut
+        are turned to its own normals: result.contact.write of all zones has those of the pairs.
         """
         self._write(path, cells, self, result, u, slip0, gap)
 
