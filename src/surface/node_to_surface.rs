@@ -97,10 +97,12 @@ fn meets(
         return Some(along_ray);
     }
     // On the face that the ray meets it is no further; another one further away is no neighbour.
-    let nearer = |distance: f64| distance <= (1.0 + BEYOND) * along_ray.distance.abs();
+    let most = (1.0 + BEYOND) * along_ray.distance.abs() + rounding;
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x)?;
-        MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), nearer)
+        MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), |distance| {
+            distance <= most
+        })
     });
     let feet = nearest(perpendicular, rounding);
     let place = |foot: &MasterPoint| master.point(&foot.weights);

@@ -80,14 +80,15 @@ fn sides_of_a_polygon_are_alike() {
 }
 
 /// A node over a notch is equally near to both flanks, and over a ridge its ray meets both. Its normal is their mean and its gap that to
-/// the bottom or to the ridge, whichever flank is first in the list, and in the half model.
+/// the bottom or to the ridge, whichever flank is first in the list, and in the half model; also where it touches, but for the rounding
+/// of coordinates.
 #[test]
 fn a_node_over_two_flanks_has_their_mean() {
-    for rise in [0.3, 0.02, -0.3] {
+    for (rise, level) in [(0.3, 0.1), (0.02, 0.1), (-0.3, 0.1), (-0.3, 0.0), (-0.3, 3e-17)] {
         let nodes = vec![
-            [-1.0, 0.1, 0.0],
-            [0.0, 0.1, 0.0],
-            [1.0, 0.1, 0.0],
+            [-1.0, level, 0.0],
+            [0.0, level, 0.0],
+            [1.0, level, 0.0],
             [-1.0, rise, 0.0],
             [0.0, 0.0, 0.0],
             [1.0, rise, 0.0],
@@ -109,7 +110,7 @@ fn a_node_over_two_flanks_has_their_mean() {
                 normal[0].abs() < 1e-15 && (normal[1] + 1.0).abs() < 1e-15,
                 "{rise}: {normal:?}"
             );
-            assert!((gap - 0.1).abs() < 1e-15, "{rise}: {gap}");
+            assert!((gap - level).abs() < 1e-15, "{rise}: {gap}");
         }
     }
 }
