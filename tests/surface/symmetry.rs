@@ -443,7 +443,7 @@ fn normals_and_gaps_are_those_of_the_whole_surface() {
 }
 
 /// A hollow slave looks across the plane: a notch above a wedge, apart. Pairs of the half are those of the whole, on which it stands
-/// twice, with their gaps; and they feel what they feel there, if both sides of the whole move as mirror images.
+/// twice, with their gaps; and they feel what they feel there, if both sides of the whole move as mirror images; also where rows keep turns.
 #[test]
 fn a_hollow_slave_looks_across_the_plane() {
     let (slope, apart) = (0.5, 0.4);
@@ -462,8 +462,8 @@ fn a_hollow_slave_looks_across_the_plane() {
     let moved: Vec<[f64; 2]> = (0..part.nodes.len())
         .map(|node| [if part.nodes[node][0] == 0.0 { 0.0 } else { rng.f64() }, rng.f64()])
         .collect();
-    let felt = |bodies: &Bodies, symmetry: Vec<SymmetryPlane>| {
-        let settings = SurfaceSettings { symmetry, ..Default::default() };
+    let felt = |bodies: &Bodies, symmetry: Vec<SymmetryPlane>, keep_turns: bool| {
+        let settings = SurfaceSettings { symmetry, keep_turns, ..Default::default() };
         let found =
             pair(2, &bodies.nodes, bodies.faces.each_ref().map(|f| &f[..]), &settings).unwrap();
         // By places: a mirror image moves as its node does, but for the sign along x.
@@ -491,15 +491,21 @@ fn a_hollow_slave_looks_across_the_plane() {
         };
         found.pairs.iter().enumerate().map(of_pair).collect::<Vec<_>>()
     };
-    let of_part = felt(&part, vec![SymmetryPlane::across(0, 0.0)]);
-    let of_whole = felt(&whole, vec![]);
-    assert_eq!(of_part.len(), 7);
-    for ((node, gap, d), (same, other_gap, other)) in of_part.iter().zip(&of_whole) {
-        assert_eq!(node, same);
-        // To rounding of coordinates and displacements of the size one.
-        let apart = [gap - other_gap, d[0] - other[0], d[1] - other[1]];
-        assert!(largest(&apart) < 1e-13, "{node}: {apart:?}");
+    let mut turned = 0.0_f64;
+    for keep_turns in [false, true] {
+        let of_part = felt(&part, vec![SymmetryPlane::across(0, 0.0)], keep_turns);
+        let of_whole = felt(&whole, vec![], keep_turns);
+        assert_eq!(of_part.len(), 7);
+        for ((node, gap, d), (same, other_gap, other)) in of_part.iter().zip(&of_whole) {
+            assert_eq!(node, same);
+            // To rounding of coordinates and displacements of the size one.
+            let apart = [gap - other_gap, d[0] - other[0], d[1] - other[1]];
+            assert!(largest(&apart) < 1e-13, "{node}, {keep_turns}: {apart:?}");
+        }
+        let sum: f64 = of_part.iter().map(|(.., d)| d[0] + d[1]).sum();
+        turned += if keep_turns { sum } else { -sum };
     }
+    assert!(turned.abs() > 1e-3, "{turned:e}");
 }
 
 /// Planes that cannot be: each with what to do.
