@@ -118,5 +118,6 @@ fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfM
 
 /// An entry; 0 if it is not stored.
 fn entry(a: &Csc, i: usize, j: usize) -> f64 {
-    a.get(i, j).copied().unwrap_or(0.0)
+    let (rows, values) = column(a, j);
+    rows.binary_search(&i).map_or(0.0, |place| values[place])
 }

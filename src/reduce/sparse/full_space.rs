@@ -11,7 +11,7 @@ use super::control::Asked;
 use crate::error::{Argument, Error};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
-    Csc, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
+    Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
 };
 use crate::linalg::sparse_schur::{Failure, Plan, Values};
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, Solved, StiffnessOperator};
@@ -193,7 +193,8 @@ impl StiffnessOperator for InUse<'_> {
 
     fn coupling(&self, i: usize, j: usize) -> f64 {
         let (row, place) = (self.space.inner + i.max(j), self.space.inner + i.min(j));
-        self.space.matrix.get(row, place).copied().unwrap_or(0.0)
+        let (rows, values) = column(&self.space.matrix, place);
+        rows.binary_search(&row).map_or(0.0, |place| values[place])
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
