@@ -9,6 +9,8 @@ use std::mem::ManuallyDrop;
 use std::rc::Rc;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use crate::counters::shared;
+
 /// A work of fewer multiplications stays on the calling thread: to wake another one takes about a tenth of their time.
 const FEW: f64 = 1e6;
 
@@ -70,7 +72,7 @@ pub fn share(
     if multiplications >= FEW && parts > 1 {
         let own = Before(replaced(None));
         if let Some(workers) = &own.0 {
-            return workers.run(parts, work, go_on);
+            return shared(|| workers.run(parts, work, go_on));
         }
     }
     for part in 0..parts {

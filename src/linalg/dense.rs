@@ -160,34 +160,51 @@ pub enum Triangle {
 }
 
 impl Triangle {
-    /// Overwrites `x` with `T⁻¹ x`, `T` this triangle of `matrix`.
+    /// Overwrites `x` with `T⁻¹ x`, `T` this triangle of `matrix`, by blocks of rows. Few columns are too few to be shared at
+    /// the corner of a block: one thread is at the next corner while others are at the rows beyond it.
     pub fn solve(self, matrix: MatRef<'_, f64>, mut x: MatMut<'_, f64>) {
         let (n, columns) = x.shape();
-        let blocks = n.div_ceil(SIDE);
+        let (blocks, are_few) = (n.div_ceil(SIDE), columns <= BLOCK / 2);
+        let is_upper = matches!(self, Triangle::Upper);
         for step in 0..blocks {
-            let block = if matches!(self, Triangle::Upper) { blocks - 1 - step } else { step };
+            let block = if is_upper { blocks - 1 - step } else { step };
             let (begin, end) = (SIDE * block, n.min(SIDE * (block + 1)));
             let (above, from) = x.as_mut().split_at_row_mut(begin);
             let (mut own, below) = from.split_at_row_mut(end - begin);
-            let corner = matrix.get(begin..end, begin..end);
-            let (solved, first, others): (Solution, usize, _) = match self {
-                Triangle::Lower => (solve_lower_triangular_in_place, end, below),
-                Triangle::UnitLower => (solve_unit_lower_triangular_in_place, end, below),
-                Triangle::Upper => (solve_upper_triangular_in_place, 0, above),
-            };
-            let multiplications = (corner.nrows() * corner.nrows() * columns) as f64 / 2.0;
-            each(blocks_of_columns(own.as_mut(), BLOCK / 2), multiplications, |own| {
-                solved(corner, own, Par::Seq);
-            });
+            if step == 0 || !are_few {
+                self.solve_corner(matrix, begin, own.as_mut());
+            }
+            let (others, first) = if is_upper { (above, 0) } else { (below, end) };
             let numbers = others.nrows() * (end - begin);
             let multiplications = reading(numbers).max((numbers * columns) as f64);
-            let parts = blocks_of_columns(others.transpose_mut(), SIDE).enumerate();
-            each(parts, multiplications, |(part, others)| {
-                let first = first + SIDE * part;
-                let rows = matrix.get(first..first + others.ncols(), begin..end);
-                matmul(others.transpose_mut(), Accum::Add, rows, own.as_ref(), -1.0, Par::Seq);
+            let starts = (first..).step_by(SIDE);
+            let mut parts: Vec<_> =
+                starts.zip(blocks_of_columns(others.transpose_mut(), SIDE)).collect();
+            if is_upper {
+                parts.reverse();
+            }
+            each(parts.into_iter().enumerate(), multiplications, |(place, (first, others))| {
+                let mut others = others.transpose_mut();
+                let rows = matrix.get(first..first + others.nrows(), begin..end);
+                matmul(others.as_mut(), Accum::Add, rows, own.as_ref(), -1.0, Par::Seq);
+                if place == 0 && are_few {
+                    self.solve_corner(matrix, first, others);
+                }
             });
         }
+    }
+
+    /// [`Self::solve`] with the block on the diagonal from row `first` on, for its rows of `x`.
+    fn solve_corner(self, matrix: MatRef<'_, f64>, first: usize, x: MatMut<'_, f64>) {
+        let rows = first..first + x.nrows();
+        let corner = matrix.get(rows.clone(), rows);
+        let solved: Solution = match self {
+            Triangle::Lower => solve_lower_triangular_in_place,
+            Triangle::UnitLower => solve_unit_lower_triangular_in_place,
+            Triangle::Upper => solve_upper_triangular_in_place,
+        };
+        let multiplications = (corner.nrows() * corner.nrows() * x.ncols()) as f64 / 2.0;
+        each(blocks_of_columns(x, BLOCK / 2), multiplications, |x| solved(corner, x, Par::Seq));
     }
 }
 

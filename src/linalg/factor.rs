@@ -30,6 +30,8 @@ pub fn lu_work(n: usize) -> f64 {
 pub struct Factor {
     factors: Columns,
     kind: Kind,
+    least_pivot: f64,
+    sign: i8,
 }
 
 enum Kind {
@@ -62,14 +64,20 @@ impl Factor {
         } else {
             lu(factors.as_mut(), goes_on).map(Kind::Lu)?
         };
-        let pivot = |i: usize| match kind {
-            Kind::Cholesky => factors[(i, i)].powi(2),
-            Kind::Lu(_) => factors[(i, i)].abs(),
+        let diagonal = (0..n).map(|i| factors[(i, i)]);
+        let (pivots, odd): (Vec<f64>, bool) = match &kind {
+            Kind::Cholesky => (diagonal.map(|root| root.powi(2)).collect(), false),
+            Kind::Lu(rows) => (diagonal.collect(), rows.odd),
         };
-        let largest = (0..n).map(pivot).fold(0.0, f64::max);
+        let largest = pivots.iter().copied().map(f64::abs).fold(0.0, f64::max);
         // Written so that NaN is singular too.
-        let regular = (0..n).all(|i| pivot(i) > least * largest);
-        regular.then_some(Factor { factors, kind })
+        if !pivots.iter().all(|pivot| pivot.abs() > least * largest) {
+            return None;
+        }
+        let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
+        let sign = if (negative % 2 == 1) == odd { 1 } else { -1 };
+        let least_pivot = if symmetric { pivots.into_iter().fold(1.0, f64::min) } else { 0.0 };
+        Some(Factor { factors, kind, least_pivot, sign })
     }
 
     /// Number of rows.
@@ -106,19 +114,12 @@ impl Factor {
 
     /// The least pivot of Cholesky's method, 1 if there is none; 0 of other factors.
     pub fn least_pivot(&self) -> f64 {
-        match self.kind {
-            Kind::Cholesky => {
-                (0..self.size()).map(|i| self.factors[(i, i)].powi(2)).fold(1.0, f64::min)
-            }
-            Kind::Lu(_) => 0.0,
-        }
+        self.least_pivot
     }
 
     /// Sign of the determinant.
     pub fn sign(&self) -> i8 {
-        let negative = (0..self.size()).filter(|&i| self.factors[(i, i)] < 0.0).count();
-        let odd = matches!(self.kind, Kind::Lu(RowOrder { odd: true, .. }));
-        if (negative % 2 == 1) == odd { 1 } else { -1 }
+        self.sign
     }
 }
 

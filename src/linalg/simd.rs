@@ -7,6 +7,8 @@
 
 use pulp::Arch;
 
+use crate::workers::{pieces, reading};
+
 /// Runs `work` with the widest vectors that the processor has, which is looked up once in a process.
 #[inline(always)]
 pub fn vectorised<R>(work: impl FnOnce() -> R) -> R {
@@ -33,28 +35,25 @@ pub fn add_columns<const N: usize>(y: &mut [f64], a: [f64; N], x: [&[f64]; N]) {
     }
 }
 
-/// `y -= A x`, for contiguous columns of `A` as long as `y`.
+/// `y -= A x`, for contiguous columns of `A` as long as `y`. Threads share the rows.
 pub fn subtract_columns(y: &mut [f64], columns: &[f64], x: &[f64]) {
     let size = y.len();
-    if size == 0 {
-        return;
-    }
-    vectorised(
-        #[inline(always)]
-        || {
-            let fours = x.chunks_exact(4);
-            let left = fours.remainder();
-            let (whole, rest) = columns.split_at(size * (x.len() - left.len()));
-            for (x, columns) in fours.zip(whole.chunks_exact(4 * size)) {
-                let column = |c: usize| &columns[c * size..(c + 1) * size];
-                let factors = [-x[0], -x[1], -x[2], -x[3]];
-                add_columns(y, factors, [column(0), column(1), column(2), column(3)]);
-            }
-            for (x, column) in left.iter().zip(rest.chunks_exact(size)) {
-                axpy(y, -x, column);
-            }
-        },
-    );
+    pieces([y], reading(columns.len()), |first, [y]| {
+        let rows = first..first + y.len();
+        let column = |c: usize| &columns[size * c..size * (c + 1)][rows.clone()];
+        vectorised(
+            #[inline(always)]
+            || {
+                let (fours, left) = x.as_chunks::<4>();
+                for (k, four) in fours.iter().enumerate() {
+                    add_columns(y, four.map(|x| -x), std::array::from_fn(|c| column(4 * k + c)));
+                }
+                for (x, c) in left.iter().zip(4 * fours.len()..) {
+                    axpy(y, -x, column(c));
+                }
+            },
+        );
+    });
 }
 
 /// [`add_columns`] with the absolute values of `x`.

@@ -6,10 +6,13 @@
 
 use faer::MatMut;
 
+use super::watched::{SIDE, blocks_of_columns};
+use crate::workers::{each, reading};
+
 /// Most multiplications of a product that faer takes for a small one (`NANO_GEMM_THRESHOLD` in its sources).
 pub const SMALL_PRODUCT: usize = 16 * 16 * 16;
 
-/// Hands `block` over by rows, and takes it back. `work` is overwritten.
+/// Hands `block` over by rows, and takes it back; threads share both copies. `work` is overwritten.
 pub fn by_rows(
     mut block: MatMut<'_, f64>,
     work: &mut Vec<f64>,
@@ -23,7 +26,14 @@ pub fn by_rows(
     work.clear();
     work.resize(rows * columns, 0.0);
     let mut copy = MatMut::from_row_major_slice_mut(work, rows, columns);
-    copy.copy_from(&block);
+    copy_rows(copy.as_mut(), block.as_mut());
     change(copy.as_mut());
-    block.copy_from(&copy);
+    copy_rows(block, copy);
+}
+
+/// Copies a matrix to another one.
+fn copy_rows(to: MatMut<'_, f64>, from: MatMut<'_, f64>) {
+    let numbers = from.nrows() * from.ncols();
+    let blocks = |all| blocks_of_columns(MatMut::transpose_mut(all), SIDE);
+    each(blocks(to).zip(blocks(from)), reading(numbers), |(mut to, from)| to.copy_from(from));
 }

@@ -81,6 +81,21 @@ pub fn fill_columns(
     each_while(blocks, work, fill, &mut || !is_long || goes_on())
 }
 
+/// The contiguous columns of so many rows that `fill(j, column)` writes, in `memory` if there is any.
+pub fn written(
+    mut memory: Vec<f64>,
+    (rows, columns): (usize, usize),
+    fill: impl Fn(usize, &mut [f64]) + Sync,
+) -> Vec<f64> {
+    let length = rows * columns;
+    match memory.is_empty() {
+        true => memory = vec![0.0; length],
+        false => memory.resize(length, 0.0),
+    }
+    fill_columns(&mut memory, rows, fill, &mut || true);
+    memory
+}
+
 /// The lower triangle `entry(i, j)` of an `n x n` matrix; `None` where `goes_on` says no.
 pub fn lower_triangle(
     n: usize,

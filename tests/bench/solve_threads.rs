@@ -3,7 +3,8 @@
 //! `cargo bench --bench solve_threads -- [TURNS] [CASE ...]`: `signorini_solve` with `settings.threads` 1 to 4, in turns, the
 //! factor of the bar on the plane (`growth.rs`) with 2049 pairs and of a cube that is clamped above with 961 pairs, with
 //! and without friction. Prints for each number of threads medians and least values of seconds on the clock and of all
-//! threads, the gain on the clock, and that all have the same bits.
+//! threads, the gain on the clock, and that all have the same bits; with `--features counters` also the median of the
+//! seconds in which threads share nothing, and their part of those of one thread.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -12,7 +13,7 @@ mod common;
 mod graded_bar;
 
 use std::ffi::c_void;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use common::brick::{Brick, Support};
 use common::mesh;
@@ -101,15 +102,18 @@ fn main() {
 
 /// Solves a case in turns.
 fn run(model: &Model, case: &Case, turns: usize) {
-    let mut times = THREADS.map(|_| [Vec::new(), Vec::new()]);
+    let mut times = THREADS.map(|_| [Vec::new(), Vec::new(), Vec::new()]);
     let mut first: Option<Vec<u64>> = None;
     let mut same = THREADS.map(|_| true);
     for _ in 0..turns {
         for (k, threads) in THREADS.into_iter().enumerate() {
-            let (wall, cpu) = (Instant::now(), cpu());
+            take_shared();
+            let (begin, cpu) = (Instant::now(), cpu());
             let bits = solve(model, case, threads);
-            times[k][0].push(wall.elapsed().as_secs_f64());
+            let wall = begin.elapsed();
+            times[k][0].push(wall.as_secs_f64());
             times[k][1].push(self::cpu() - cpu);
+            times[k][2].push((wall - take_shared()).as_secs_f64());
             same[k] &= first.get_or_insert_with(|| bits.clone()) == &bits;
         }
     }
@@ -121,8 +125,10 @@ fn run(model: &Model, case: &Case, turns: usize) {
     let one = of(&times[0][0]);
     for (k, threads) in THREADS.into_iter().enumerate() {
         let (wall, cpu) = (of(&times[k][0]), of(&times[k][1]));
+        let unshared = of(&times[k][2]).0;
+        let counted = format!(",{unshared:.4},{:.1} %", 100.0 * unshared / one.0);
         println!(
-            "{},{},{threads},{:.4},{:.4},{:.4},{:.4},{:.2},{}",
+            "{},{},{threads},{:.4},{:.4},{:.4},{:.4},{:.2},{}{}",
             case.name,
             model.pairs(),
             wall.0,
@@ -130,9 +136,18 @@ fn run(model: &Model, case: &Case, turns: usize) {
             cpu.0,
             cpu.1,
             one.1 / wall.1,
-            if same[k] { "same" } else { "other" }
+            if same[k] { "same" } else { "other" },
+            if cfg!(feature = "counters") && threads > 1 { counted } else { String::new() }
         );
     }
+}
+
+/// The time since the last call in which threads shared works, where it is counted.
+fn take_shared() -> Duration {
+    #[cfg(feature = "counters")]
+    return signorini::counters::take_shared();
+    #[cfg(not(feature = "counters"))]
+    Duration::ZERO
 }
 
 /// The bits of the displacements and forces.

@@ -2,6 +2,9 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../../src/counters.rs"]
+#[allow(dead_code)] // `workers` uses a part.
+mod counters;
 #[allow(dead_code)] // For the files in `linalg`, which use a part.
 #[path = "../../src/workers.rs"]
 mod workers;

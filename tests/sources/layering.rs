@@ -10,7 +10,7 @@ const ROOMS: [(&str, &[&str]); 16] = [
     ("counters", &[]),
     ("error", &[]),
     ("shortage", &[]),
-    ("workers", &[]),
+    ("workers", &["counters"]),
     ("linalg", &["shortage", "workers"]),
     ("settings", &["error"]),
     ("monitor", &["error", "settings", "shortage"]),

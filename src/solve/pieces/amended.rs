@@ -12,7 +12,7 @@ use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::{SINGULAR, SUSPICIOUS_PIVOT};
-use crate::linalg::watched::{GoesOn, fill_columns};
+use crate::linalg::watched::{GoesOn, written};
 
 /// A factorised system with a change. Its functions take the equations, whose matrix stays.
 pub struct Amended {
@@ -80,7 +80,8 @@ impl Amended {
         goes_on: GoesOn<'_>,
     ) -> Option<()> {
         let terms = self.terms(equations.dim, &pairs);
-        self.change = None;
+        let [rows, coordinates, matrix] =
+            self.change.take().map_or_else(Default::default, Change::into_memory);
         if terms.is_empty() {
             return Some(());
         }
@@ -88,23 +89,21 @@ impl Amended {
         self.columns.prepare(&terms, all, goes_on, |components| {
             self.base.unknowns(&equations.change_columns(components))
         })?;
-        let changed = self.changed(equations, &terms);
+        let changed = self.changed(equations, &terms, rows);
         let placed = |term: Term| {
             let at = changed.pairs.binary_search(&(term.first / equations.dim));
             (equations.dim * at.expect("the pair of a term changes"), term)
         };
         let terms: Vec<(usize, Term)> = terms.into_iter().map(placed).collect();
         let known = self.columns.components();
-        let mut pushes = vec![0.0; changed.held.len() * known.len()];
-        let fill = |place: usize, column: &mut [f64]| {
+        let pushes = written(Vec::new(), (changed.held.len(), known.len()), |place, column| {
             let entries = changed.held.iter().map(|&i| equations.change_entry(i, known[place]));
             column.iter_mut().zip(entries).for_each(|(push, entry)| *push = entry);
-        };
-        fill_columns(&mut pushes, changed.held.len(), fill, &mut || true);
-        let coordinates = changed.coordinates(&self.base, self.columns.values(), pushes);
+        });
+        let coordinates =
+            changed.coordinates(&self.base, self.columns.values(), pushes, coordinates);
         let (count, size) = (terms.len(), changed.places.len());
-        let mut matrix = vec![0.0; count * count];
-        let fill = |j: usize, column: &mut [f64]| {
+        let matrix = written(matrix, (count, count), |j, column| {
             let mut z = vec![0.0; size];
             for (place, u) in self.columns.parts(&terms[j].1) {
                 let own = &coordinates[size * place..size * (place + 1)];
@@ -113,8 +112,7 @@ impl Amended {
             let along = terms.iter().map(|(at, row)| row.along(&z[*at..]));
             column.iter_mut().zip(along).for_each(|(entry, along)| *entry = along);
             column[j] += 1.0;
-        };
-        fill_columns(&mut matrix, count, fill, &mut || true);
+        });
         let fill = |j: usize, entries: &mut [f64]| {
             entries.copy_from_slice(&matrix[count * j..count * (j + 1)]);
         };
@@ -123,8 +121,8 @@ impl Amended {
         Some(())
     }
 
-    /// The pairs of terms.
-    fn changed(&self, equations: &Equations<'_>, terms: &[Term]) -> Changed {
+    /// The pairs of terms; their rows are in `memory`.
+    fn changed(&self, equations: &Equations<'_>, terms: &[Term], memory: Vec<f64>) -> Changed {
         let dim = equations.dim;
         let mut pairs: Vec<usize> = terms.iter().map(|term| term.first / dim).collect();
         pairs.dedup();
@@ -132,7 +130,7 @@ impl Amended {
         let places: Vec<_> = components().map(|i| self.base.place(i)).collect();
         let held = components().zip(&places).filter(|(_, place)| place.is_none());
         let held: Vec<usize> = held.map(|(i, _)| i).collect();
-        let rows = self.base.rows(equations, &held);
+        let rows = self.base.rows(equations, &held, memory);
         Changed { pairs, places, held, rows }
     }
 
@@ -142,7 +140,7 @@ impl Amended {
         let mut x = self.base.unknowns(b);
         let Some(change) = &self.change else { return self.base.displacements(&x) };
         let held = change.changed.held.iter().map(|&i| b[i]).collect();
-        let mut y = change.changed.coordinates(&self.base, &x, held);
+        let mut y = change.changed.coordinates(&self.base, &x, held, Vec::new());
         let mut along: Vec<f64> =
             change.terms.iter().map(|(at, term)| term.along(&y[*at..])).collect();
         change.factor.solve(&mut along);
@@ -210,15 +208,21 @@ impl Amended {
     }
 }
 
+impl Change {
+    /// The memory of rows, coordinates and the matrix, for the next change.
+    fn into_memory(self) -> [Vec<f64>; 3] {
+        [self.changed.rows, self.coordinates, self.matrix]
+    }
+}
+
 impl Changed {
     /// The coordinates of the pairs that change, on their pieces of before, for each column of unknowns `x` and of the
-    /// right-hand sides `b` of the components that were none.
-    fn coordinates(&self, base: &System, x: &[f64], b: Vec<f64>) -> Vec<f64> {
+    /// right-hand sides `b` of the components that were none; in `memory`.
+    fn coordinates(&self, base: &System, x: &[f64], b: Vec<f64>, memory: Vec<f64>) -> Vec<f64> {
         let (dim, size, mut pushes) = (self.places.len() / self.pairs.len(), base.size(), b);
         subtract_product(&mut pushes, &self.rows, x, size);
         let known = x.len().checked_div(size).unwrap_or(pushes.len() / self.held.len().max(1));
-        let mut coordinates = vec![0.0; known * self.places.len()];
-        let fill = |column: usize, own: &mut [f64]| {
+        written(memory, (self.places.len(), known), |column, own| {
             let x = &x[size * column..];
             let mut pushes = pushes[self.held.len() * column..].iter();
             for (own, place) in own.iter_mut().zip(&self.places) {
@@ -229,8 +233,6 @@ impl Changed {
             }
             let pairs = self.pairs.iter().zip(own.chunks_exact_mut(dim));
             pairs.for_each(|(&pair, own)| base.pairs()[pair].complete(own));
-        };
-        fill_columns(&mut coordinates, self.places.len(), fill, &mut || true);
-        coordinates
+        })
     }
 }

@@ -7,7 +7,7 @@ use crate::law::Piece;
 use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, scale_roots};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::{norm, norm_of};
-use crate::linalg::watched::fill_columns;
+use crate::linalg::watched::written;
 use crate::problem::{BoundedLcp, Remembered};
 
 /// The equations of some pairs: of a whole problem, or of what is left of one when others are
@@ -71,15 +71,11 @@ impl<'a> Equations<'a> {
 
     /// Columns of `K / k - 1`, contiguous.
     pub fn change_columns(&self, components: &[usize]) -> Vec<f64> {
-        let size = self.root.len();
-        let mut columns = vec![0.0; size * components.len()];
-        let fill = |place: usize, column: &mut [f64]| {
+        written(Vec::new(), (self.root.len(), components.len()), |place, column| {
             let (i, unit) = (components[place], self.root[components[place]].powi(2));
             column.iter_mut().zip(self.matrix.column(i)).for_each(|(own, k)| *own = k / unit);
             column[i] -= 1.0;
-        };
-        fill_columns(&mut columns, size, fill, &mut || true);
-        columns
+        })
     }
 
     /// An entry of `K / k - 1`.

@@ -3,7 +3,7 @@
 use super::equations::Equations;
 use crate::law::Unknown;
 use crate::linalg::dense::subtract_product;
-use crate::linalg::watched::fill_columns;
+use crate::linalg::watched::written;
 
 /// Solutions of a system from which on the rows of its held components are gathered: that takes the time of about so many
 /// products with `K`.
@@ -38,7 +38,7 @@ impl Held {
         self.solutions += b.len() / size;
         if self.rows.is_empty() && self.solutions >= GATHERED {
             let at: Vec<(usize, f64)> = unknowns.iter().map(|own| (at(own), 1.0)).collect();
-            self.rows = rows(equations, &self.components, &at);
+            self.rows = rows(equations, &self.components, &at, Vec::new());
         }
         if !self.rows.is_empty() {
             subtract_product(&mut pushes, &self.rows, moved, count);
@@ -55,17 +55,19 @@ impl Held {
     }
 }
 
-/// The rows of `K` of the components that are held, each with the columns at places, in their units.
-pub fn rows(equations: &Equations<'_>, held: &[usize], at: &[(usize, f64)]) -> Vec<f64> {
+/// The rows of `K` of the components that are held, each with the columns at places, in their units; in `memory`.
+pub fn rows(
+    equations: &Equations<'_>,
+    held: &[usize],
+    at: &[(usize, f64)],
+    memory: Vec<f64>,
+) -> Vec<f64> {
     let matrix = equations.matrix;
-    let mut rows = vec![0.0; held.len() * at.len()];
-    let fill = |k: usize, row: &mut [f64]| {
+    written(memory, (at.len(), held.len()), |k, row| {
         let (i, column) = (held[k], matrix.column(held[k]));
         for (entry, &(j, unit)) in row.iter_mut().zip(at) {
             // The columns of a symmetric matrix are contiguous, its rows are not.
             *entry = unit * if equations.symmetric { column[j] } else { matrix.at(i, j) };
         }
-    };
-    fill_columns(&mut rows, at.len(), fill, &mut || true);
-    rows
+    })
 }

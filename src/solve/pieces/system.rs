@@ -22,7 +22,7 @@ use crate::law::{Assembly, Image, Linearised, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::dot;
-use crate::linalg::watched::{GoesOn, fill_columns};
+use crate::linalg::watched::{GoesOn, written};
 
 /// The border of a system: `border . (dy, ds) = wanted`.
 pub struct Border<'b> {
@@ -174,10 +174,16 @@ impl System {
         place.ok().map(|place| (place, self.unknowns[place].column))
     }
 
-    /// The rows of `K` of some components with the columns of the unknowns, in their units.
-    pub fn rows(&self, equations: &Equations<'_>, components: &[usize]) -> Vec<f64> {
+    /// The rows of `K` of some components with the columns of the unknowns, in their units; in `memory`.
+    pub fn rows(
+        &self,
+        equations: &Equations<'_>,
+        components: &[usize],
+        memory: Vec<f64>,
+    ) -> Vec<f64> {
         let at = |own: &Unknown| (self.dim * own.pair + own.component, own.column);
-        held::rows(equations, components, &self.unknowns.iter().map(at).collect::<Vec<_>>())
+        let at: Vec<_> = self.unknowns.iter().map(at).collect();
+        held::rows(equations, components, &at, memory)
     }
 
     /// True if the system is one of these equations, whose matrix it has.
@@ -198,9 +204,7 @@ impl System {
     /// The right-hand sides of the unknowns for each column of `b`.
     fn right_sides(&self, b: &[f64]) -> Vec<f64> {
         let (size, columns) = (self.size(), b.len().checked_div(self.all).unwrap_or(0));
-        let mut sides = Vec::with_capacity(size * columns + 1);
-        sides.resize(size * columns, 0.0);
-        let fill = |column: usize, sides: &mut [f64]| {
+        written(Vec::new(), (size, columns), |column, sides| {
             let b = &b[self.all * column..];
             for (side, unknown) in sides.iter_mut().zip(&self.unknowns) {
                 let at = self.dim * unknown.pair;
@@ -210,9 +214,7 @@ impl System {
                 };
                 *side = (b[at + unknown.component] - dragged) * unknown.row;
             }
-        };
-        fill_columns(&mut sides, size, fill, &mut || true);
-        sides
+        })
     }
 
     /// `dy` from the unknowns, for each column of `b`.

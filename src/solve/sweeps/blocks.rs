@@ -7,6 +7,9 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::{add_columns, axpy, vectorised};
 use crate::workers::{columns_to_share, pieces, reading};
 
+/// Longest block, in the length of one whose components all move: one thread multiplies within a block.
+const LONG: usize = 4;
+
 /// The steps of some components, the others zero.
 type Steps = [f64; 3];
 
@@ -20,9 +23,10 @@ pub fn over_all<const DIM: usize>(
     mut relax: impl FnMut(usize, &[f64]) -> (Steps, f64),
 ) -> f64 {
     let size = matrix.size();
-    let length = DIM * columns_to_share(size).div_ceil(DIM).min(size / DIM).max(1);
+    let least = DIM * columns_to_share(size).div_ceil(DIM).min(size / DIM).max(1);
+    let (mut first, mut length) = (0, least);
     let (mut change, mut steps) = (0.0, Vec::new());
-    for first in (0..size).step_by(length) {
+    while first < size {
         let block = first..size.min(first + length);
         steps.clear();
         let own = &mut force[block.clone()];
@@ -33,16 +37,13 @@ pub fn over_all<const DIM: usize>(
                     let (moved, added) = relax(first + i, &own[i..i + DIM]);
                     change += added;
                     add_steps::<DIM>(|c| &matrix.column(first + i + c)[block.clone()], moved, own);
-                    if length < size {
+                    if least < size {
                         steps.extend_from_slice(&moved[..DIM]);
                     }
                 }
             },
         );
         let moved = steps.iter().filter(|step| **step != 0.0).count();
-        if moved == 0 {
-            continue;
-        }
         pieces([force], reading(moved * size), |begin, [force]| {
             let end = begin + force.len();
             let (from, to) = (block.end.clamp(begin, end), block.start.clamp(begin, end));
@@ -51,6 +52,10 @@ pub fn over_all<const DIM: usize>(
                 matrix.add_rows_of_product((first, &steps), rows, own);
             }
         });
+        first = block.end;
+        // The next block is so long that its products are shared if as few components move in it.
+        let groups = block.len() * least / moved.max(1) / DIM;
+        length = DIM * groups.clamp(least / DIM, LONG * least / DIM);
     }
     change.sqrt()
 }
