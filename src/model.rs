@@ -256,6 +256,7 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
+        let problem = problem.grown(self.reduction.growth());
         match self.reduction.is_condensed_by_host() {
             true => to(&problem.condensed_by_host()),
             false => to(&problem),
@@ -277,7 +278,7 @@ impl Model {
         let slip = self.allowed_slip(case)?;
         let offset = dependence.offset(case.prescribed);
         let stiffness = (self.reduction.stiffness(), &load[..]);
-        let relation = DependentRows::new(dependence, stiffness, &offset);
+        let relation = DependentRows::new(dependence, stiffness, &offset, self.reduction.growth());
         let (gap, slip) = (case.gap, slip.as_deref());
         let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
         to(&problem)

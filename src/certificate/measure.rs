@@ -148,7 +148,7 @@ pub(super) fn measure_pair<R: Relation>(
     (residual, inner): (&[f64], &[f64]),
 ) -> Certificate {
     let relation = contact.problem().relation();
-    let load = norm(relation.load());
+    let load = relation.size_of_load();
     // The branches of the law and `max` drop NaN, which sums in twice the precision make of an overflow.
     let scale = match raw.iter().all(|force| force.is_finite()) {
         true => load.max(relation.size_of_force(&raw)),
@@ -203,7 +203,7 @@ pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
 /// [`eta`], on a problem whose laws are worked out.
 pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
     let size = natural_sum(contact.each(d, raw)).root();
-    ratio(size, norm(contact.problem().load()).max(norm(raw)))
+    ratio(size, contact.problem().relation().size_of_load().max(norm(raw)))
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.

@@ -15,7 +15,7 @@ use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, column, entries, from_entries, times, transpose_times,
 };
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{largest_of, norm_inf};
+use crate::linalg::vector::{largest_of, norm, norm_inf};
 
 /// Why rows of surfaces nearly depend on each other, and what to do.
 pub(crate) const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
@@ -104,22 +104,48 @@ pub struct DependentRows<'a> {
     pub(crate) units: Vec<f64>,
     /// `Zᵀ f`, and what drives the offsets.
     relative_load: Vec<f64>,
+    /// The growth of the row of each variable; empty: none has grown.
+    pub(super) growth: &'a [f64],
+    /// Size of the relative load without it.
+    size_of_load: f64,
 }
 
 impl<'a> DependentRows<'a> {
-    /// `stiffness`, column-major, and `load` are `K` and `f`; `offset` is `o`.
+    /// `stiffness`, column-major, and `load` are `K` and `f`; `offset` is `o`; `growth` is that of the variables' rows, empty if
+    /// none has grown.
     pub(crate) fn new(
         dependence: &'a Dependence,
         (stiffness, load): (&'a [f64], &'a [f64]),
         offset: &'a [f64],
+        growth: &'a [f64],
     ) -> Self {
         let size = dependence.variables();
         let stiffness = Matrix::new(size, stiffness, size.max(1));
         let units = units(dependence, &stiffness);
-        let mut relative_load = times(&dependence.from_relative, load);
-        let offsets = units.iter().zip(offset).map(|(unit, offset)| unit * offset);
-        relative_load.iter_mut().zip(offsets).for_each(|(load, offset)| *load += offset);
-        DependentRows { dependence, stiffness, load, offset, units, relative_load }
+        let relative = |load: &[f64]| {
+            let mut relative = times(&dependence.from_relative, load);
+            let offsets = units.iter().zip(offset).map(|(unit, offset)| unit * offset);
+            relative.iter_mut().zip(offsets).for_each(|(load, offset)| *load += offset);
+            relative
+        };
+        let relative_load = relative(load);
+        let size_of_load = match growth.is_empty() {
+            true => norm(&relative_load),
+            false => {
+                let grown = load.iter().zip(growth).map(|(load, growth)| load / growth);
+                norm(&relative(&grown.collect::<Vec<f64>>()))
+            }
+        };
+        DependentRows {
+            dependence,
+            stiffness,
+            load,
+            offset,
+            units,
+            relative_load,
+            growth,
+            size_of_load,
+        }
     }
 
     /// `C z + o`.
@@ -167,6 +193,10 @@ impl Relation for DependentRows<'_> {
 
     fn load(&self) -> &[f64] {
         &self.relative_load
+    }
+
+    fn size_of_load(&self) -> f64 {
+        self.size_of_load
     }
 
     /// `Zᵀ (K z - f - Cᵀ F)` with `z = Z d`, and the unit of the pair times `d - C z - o`, which is across it.

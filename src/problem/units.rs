@@ -124,8 +124,9 @@ impl ChangesUnits for Stiffness<'_> {
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
         let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.force.all(self.load)?);
         let matrix = Matrix::new(self.size(), &matrix, self.size().max(1));
-        let (symmetric, rounding) = (self.symmetric, self.rounding);
-        Some(work(Stiffness { symmetric, rounding, ..Stiffness::new(matrix, &load, self.dim) }))
+        let Stiffness { symmetric, growth, rounding, .. } = *self;
+        let scaled = Stiffness::new(matrix, &load, self.dim);
+        Some(work(Stiffness { symmetric, growth, rounding, ..scaled }))
     }
 }
 
@@ -156,7 +157,7 @@ impl ChangesUnits for DependentRows<'_> {
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
         let matrix = dense(&self.stiffness, units.stiffness())?;
         let (load, offset) = (units.force.all(self.load)?, units.length.all(self.offset())?);
-        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset)))
+        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, self.growth)))
     }
 }
 

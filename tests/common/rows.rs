@@ -26,12 +26,17 @@ impl Host {
 
     /// The model with general rows.
     pub fn model(&self) -> Result<Model, Error> {
+        self.model_with(&Settings::default())
+    }
+
+    /// The model with general rows, condensed or in full space.
+    pub fn model_with(&self, settings: &Settings) -> Result<Model, Error> {
         let mut start = vec![0];
         self.rows.iter().for_each(|row| start.push(start.last().unwrap() + row.len()));
         let nodes = self.rows.concat();
         let dofs: Vec<usize> = nodes.iter().flat_map(|&(node, _)| self.dofs(node)).collect();
         let weights: Vec<f64> = nodes.iter().map(|&(_, weight)| weight).collect();
-        self.model_of(&[], &start, &dofs, &weights)
+        self.model_of(&[], &start, (&dofs, &weights), settings)
     }
 
     /// The model of pairs whose first node is the slave, of weight 1.
@@ -45,7 +50,7 @@ impl Host {
             weights.extend(row[1..].iter().map(|(_, weight)| -weight));
             start.push(weights.len());
         }
-        self.model_of(&slaves, &start, &masters, &weights)
+        self.model_of(&slaves, &start, (&masters, &weights), &Settings::default())
     }
 
     fn dofs(&self, node: usize) -> std::ops::Range<usize> {
@@ -56,8 +61,8 @@ impl Host {
         &self,
         slaves: &[usize],
         master_start: &[usize],
-        masters: &[usize],
-        weights: &[f64],
+        (masters, weights): (&[usize], &[f64]),
+        settings: &Settings,
     ) -> Result<Model, Error> {
         let n = self.size();
         let (mut starts, mut rows, mut values) = (vec![0], vec![], vec![]);
@@ -87,7 +92,8 @@ impl Host {
             tangents: self.tangents.as_deref(),
             ..ContactPairs::default()
         };
-        Model::sparse(&matrix, &self.fixed, &pairs)
+        let monitor = &mut Monitor::new(settings, None);
+        Model::sparse_within(&matrix, &self.fixed, &pairs, None, monitor)
     }
 
     /// `B`, row by row, with the model's frames.

@@ -176,3 +176,54 @@ fn tangents_along_supports_are_held() {
         assert!((friction + 0.3).abs() < 1e-9, "{friction}");
     }
 }
+
+/// Three springs of 1: node 0 is pressed by 1 upon node 1, and by a second pair upon a point that is off node 1 by `off` of
+/// the way to node 2, as rounded coordinates leave it. Up to terms of `off` both pairs together carry one half, or the model is
+/// refused, or the status is not 0. `eta` is at most 1e-10 of forces up to ten times the host's: 1e-9, and as much of rows that agree. Entries of the
+/// stiffness are `off⁻²`, each rounded, and displacements `off`: some epsilons over `off`.
+#[test]
+fn pairs_that_nearly_repeat_others_carry_the_force_or_say_so() {
+    for friction in [None, Some(0.5)] {
+        for (off, full_space) in (0..=13).flat_map(|k| [(k, false), (k, true)]) {
+            let off = if off == 0 { 0.0 } else { 10f64.powi(-off) };
+            let mut stiffness = vec![0.0; 36];
+            (0..6).for_each(|i| stiffness[7 * i] = 1.0);
+            let host = Host {
+                dim: 2,
+                stiffness,
+                fixed: vec![],
+                rows: vec![vec![(0, 1.0), (1, -1.0)], vec![(0, 1.0), (1, off - 1.0), (2, -off)]],
+                normals: [0.0, -1.0].repeat(2),
+                tangents: None,
+            };
+            let settings = Settings { full_space, ..Settings::default() };
+            let must = off <= 1e-9 || off >= 1e-3;
+            let model = host.model_with(&settings);
+            assert!(model.is_ok() || !must, "{off:e}");
+            let Ok(model) = model else { continue };
+            let mu = [friction.unwrap_or_default(); 2];
+            let case = LoadCase {
+                load: &[0.0, -1.0, 0.0, 0.0, 0.0, 0.0],
+                prescribed: None,
+                gap: &[0.0; 2],
+                law: if friction.is_some() {
+                    FrictionLaw::Coulomb(&mu)
+                } else {
+                    FrictionLaw::Frictionless
+                },
+                reference_slip: None,
+            };
+            let solution =
+                model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap();
+            let is_solved = solution.status == Status::Solved;
+            assert!(is_solved || !must, "{off:e} {friction:?}: {}", solution.message);
+            let force = &solution.certificate.force;
+            let error = (force[0] + force[2] + 0.5).abs();
+            let rounding = if off > 1e-9 { 8.0 * f64::EPSILON / off } else { 0.0 };
+            assert!(
+                !is_solved || error <= off + 2e-9 + rounding,
+                "{off:e} {friction:?}: {error:e}"
+            );
+        }
+    }
+}

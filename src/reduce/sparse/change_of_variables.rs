@@ -14,13 +14,18 @@ use super::supports::FixedComponent;
 use crate::linalg::congruence::congruence;
 use crate::linalg::row_elimination::{Expression, Terms};
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
+    Csc, OutOfMemory, column, from_columns, from_entries, product_without_rounding, times,
+    transpose_times,
 };
 use crate::linalg::sparse_schur::{FactorProgress, Failure};
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::Rows;
+
+/// Coefficients of rows that are solved for one of their own degrees of freedom are at most of this size: the largest in the row
+/// over that of the unknown.
+const ORDINARY: f64 = 10.0;
 
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
@@ -72,6 +77,15 @@ impl ChangeOfVariables {
                 product_without_rounding(&with_dependents(rows, host_size, dependents)?, &matrix)?;
         }
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
+    }
+
+    /// The growth of each kept variable: its largest coefficient in degrees of freedom of the host, beside [`ORDINARY`];
+    /// empty if none has grown.
+    pub(super) fn growth(&self) -> Vec<f64> {
+        let largest = |j| norm_inf(column(&self.matrix, j).1);
+        let kept = self.free.len()..self.unknowns;
+        let growth: Vec<f64> = kept.map(|j| (largest(j) / ORDINARY).max(1.0)).collect();
+        if growth.iter().all(|growth| *growth == 1.0) { Vec::new() } else { growth }
     }
 
     /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.

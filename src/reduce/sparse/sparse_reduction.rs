@@ -30,6 +30,7 @@ pub struct SparseReduction {
     supports: Vec<FixedComponent>,
     fixed_components: Vec<usize>,
     dependent: Option<Dependence>,
+    growth: Vec<f64>,
     engine: Engine,
 }
 
@@ -90,6 +91,10 @@ impl SparseReduction {
         if let (Engine::Condensed(schur), None) = (&mut engine, &dependent) {
             schur.level(&fixed_components, pairs.dim);
         }
+        let growth = variables.growth();
+        if let Engine::FullSpace(space) = &mut engine {
+            space.growth.clone_from(&growth);
+        }
         Ok(SparseReduction {
             fixed_count: fixed.len(),
             variables,
@@ -99,6 +104,7 @@ impl SparseReduction {
             fixed_components,
             supports,
             dependent,
+            growth,
             engine,
         })
     }
@@ -190,6 +196,10 @@ impl Reduction for SparseReduction {
 
     fn dependence(&self) -> Option<&Dependence> {
         self.dependent.as_ref()
+    }
+
+    fn growth(&self) -> &[f64] {
+        &self.growth
     }
 
     fn check_prescribed(&self, values: &[f64]) -> Result<(), Error> {

@@ -4,7 +4,7 @@ use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness};
@@ -44,6 +44,16 @@ pub fn ended<R: Relation>(
     Solution { factorisations: systems, ..Solution::of(method, ended, d, certificate) }
 }
 
+/// The limit that a status tells.
+fn stop(status: Status) -> Option<Stop> {
+    match status {
+        Status::IterationLimit => Some(Stop::IterationLimit),
+        Status::TimeLimit => Some(Stop::TimeLimit),
+        Status::Cancelled => Some(Stop::Cancelled),
+        _ => None,
+    }
+}
+
 /// The result of a round as one of the problem itself, of displacements `d` and forces.
 pub fn measured<R: Relation>(
     contact: &Contact<'_, R>,
@@ -57,7 +67,14 @@ pub fn measured<R: Relation>(
             (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())
         }
         Status::Solved => (Status::Stalled, round.message.clone()),
-        other => (other, round.message.clone()),
+        other => match stop(other) {
+            // The round has another tolerance, and another error.
+            Some(stop) => {
+                let (status, sentence) = Ending::Stopped(stop).status(settings, &certificate);
+                (status, sentence.into())
+            }
+            None => (other, round.message.clone()),
+        },
     };
     Solution {
         status,
