@@ -2045,6 +2045,7 @@ contains
         character(len=*), intent(out), optional :: message
         type(refusal) :: wrong
         call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
+        call check_shape(wrong, 2, 'coordinates', shape(coordinates), [self%dim, self%nodes], '(dim, nodes)')
         if (refused(wrong, info, message)) return
         call finish(signorini_surface_adjust(self%handle, within, c_loc(coordinates)), info, message, &
             [CONTACT_WRONG_MODEL, 1, 2])

@@ -4,9 +4,10 @@ program mistakes
     use signorini
     implicit none
     integer, parameter :: dp = c_double
-    real(dp) :: k(4, 4), f(4), gap(2), mu(2), d(4), force(4), u(4), values(4), normals(2, 2)
+    real(dp) :: k(4, 4), f(4), gap(2), mu(2), d(4), force(4), u(4), values(4), normals(2, 2), at(2, 4)
     integer :: info, failed, start(5), row(4), slaves(2, 2)
     type(contact_model) :: model
+    type(contact_surfaces) :: surfaces
     type(signorini_report) :: report
     character(len=511) :: message
 
@@ -53,6 +54,14 @@ program mistakes
     call told('loads of the pairs', -1, 'f has 2 entries, it must have 4')
     call model%recover(f, d, u(1:2), info, message=message)
     call told('displacements of the pairs', -3, 'u has 2 entries, it must have 4')
+
+    ! A line above another one, each the outline of its body.
+    at = reshape([real(dp) :: 0, 0, 1, 0, 1, 0, 0, 0], [2, 4])
+    call surfaces%pair(at, reshape([1, 2], [2, 1]), reshape([3, 4], [2, 1]), info, message=message)
+    call told('right', 0, '')
+    call surfaces%adjust(0.1_dp, at(:, 1:3), info, message)
+    call told('coordinates of some nodes', -2, 'coordinates has the shape (2, 3), it must be (2, 4)')
+    call surfaces%release()
 
     ! Right in themselves: remarks.
     call contact_solve(k, f, gap - 0.1_dp, d, force, info, friction=mu, report=report, message=message)
