@@ -55,14 +55,14 @@ int main(int argc, char **argv)
 
     struct check check = check_begin(mesh, contact, model);
     for (int step = 0; step < STEPS; step++) {
+        for (int i = 0; i < 2 * PAIRS; i++) /* friction remembers: (n, t1, t2) a pair */
+            slip0[i] = d[3 * (i / 2) + 1 + i % 2];
         blocks_loads(mesh, twist[step], f);
         status = signorini_model_solve(model, 1, f, NULL, pairs.gaps,
                                        SIGNORINI_LAW_COULOMB, friction, slip0, &settings, d, F,
                                        state, NULL, &report, NULL);
         if (status != 0) return failed("load step", status);
         check_step(&check, step, f, slip0, d, F, state, &report);
-        for (int i = 0; i < 2 * PAIRS; i++) /* friction remembers: (n, t1, t2) a pair */
-            slip0[i] = d[3 * (i / 2) + 1 + i % 2];
     }
     status = signorini_model_recover(model, 1, f, NULL, d, u);
     if (status != 0) return failed("displacements", status);

@@ -34,15 +34,15 @@ program two_blocks
     print '(a)', surfaces%summary()
 
     friction = mu
-    slip0 = 0
+    d = 0
     off = 0
     print '(a)', 'twist, N m   open slip stick   M_z, N m       eta'
     do step = 1, size(twists)
+        slip0 = [(d(3*p - 1:3*p), p=1, pairs)] ! friction remembers
         call place_loads(twists(step))
         call model%solve(reshape(load, [components]), surfaces%gap, d, force, info, friction=friction, &
             slip0=slip0, tolerance=1d-12, state=state, report=report, message=message)
         if (info /= SIGNORINI_STATUS_SOLVED) call give_up
-        slip0 = [(d(3*p - 1:3*p), p=1, pairs)] ! friction remembers
 
         call surfaces%resultant(d, force, contact, info, message=message)
         if (info /= 0) call give_up
@@ -104,7 +104,7 @@ contains
         call model%recover(reshape(load, [components]), d, u, info, message=message)
         if (info /= 0) call give_up
         call surfaces%write(trim(directory)//'/two_blocks.vtu', at, corners, 12, d, force, info, u, state, &
-            message=message)
+            slip0, message=message)
         if (info /= 0) call give_up
     end subroutine
 end program

@@ -33,7 +33,7 @@ void check_step(struct check *check, int step, const double f[DOFS], const doubl
                 const double d[SIZE], const double F[SIZE], const int32_t state[PAIRS],
                 const signorini_report *report);
 
-/* Judges all steps and the last answer; slip0 is what a further step would begin with. */
+/* Judges all steps and the last answer; slip0 is that which the last step began with. */
 void check_end(struct check *check, const double f[DOFS], const double u[DOFS],
                const double F[SIZE], const int32_t state[PAIRS], const double slip0[2 * PAIRS]);
 
