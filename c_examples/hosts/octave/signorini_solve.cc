@@ -30,6 +30,10 @@ residual.  What is not solved is an error.")
     const int count = arguments.length();
     if (count < 4 || count > 6)
         print_usage();
+    const char *const names[] = {"K", "f", "gap", "mu", "dim", "slip0"};
+    for (int k = 0; k < count; k++)
+        if (arguments(k).iscomplex())
+            error("signorini_solve: %s is complex: give real numbers", names[k]);
     const Matrix K = arguments(0).xmatrix_value("signorini_solve: K is not a real matrix");
     const NDArray f = arguments(1).xarray_value("signorini_solve: f is not a real array");
     NDArray gap = arguments(2).xarray_value("signorini_solve: gap is not a real array");

@@ -46,5 +46,7 @@ refused ("mu[0] is -1", K, f, 0, [-1 0]);
 refused ("f has 3 entries: give 4, dim for each pair", K, [1 2 3], 0, 0.3);
 refused ("gap has 4 entries: give 2, one for each pair", K, f, [0 0 0 0], 0.3);
 refused ("slip0 has 4 entries: give 2", K, f, 0, 0.3, 2, f);
+refused ("K is complex: give real numbers", K + 1i * eye (4), f, 0, 0.3);
+refused ("gap is complex", K, f, 1i, 0.3);
 refused ("K must be square", ones (3), [1 2 3], 0, 0.3);
 refused ("K is not a real matrix", "abc", [1 2 3], 0, {});
