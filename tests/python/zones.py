@@ -363,6 +363,18 @@ class Zones(unittest.TestCase):
                              [(time, os.path.basename(name)) for time, name in zip([0.0, 0.5, 2.0], names)])
             for step in steps:
                 ElementTree.parse(os.path.join(folder, step.get("file")))
+            latin = os.fsdecode(os.fsencode(names[0][:-4]) + b"\xe4.vtu")
+            with open(series, "rb") as file, open(latin, "wb"):
+                before = file.read()
+            with self.assertRaisesRegex(ValueError, "no UTF-8, which a .pvd is: give the file another name"):
+                signorini.write_series(series, [latin])
+            with open(series, "rb") as file:
+                self.assertEqual(file.read(), before)
+            os.remove(latin)
+            signorini.write_series(os.fsencode(series), [os.fsencode(name) for name in names], [0.0, 0.5, 2.0])
+            with open(series, "rb") as file:
+                self.assertEqual(file.read(), before)
+            self.assertEqual(sorted(os.listdir(folder)), sorted(map(os.path.basename, [*names, series])))
 
     def test_many_cases_and_certify(self):
         loads = np.array([self.load, 2 * self.load])

@@ -86,7 +86,7 @@ def write_series(path, files, times=None):
     """
     if isinstance(files, (str, bytes, os.PathLike)):
         raise TypeError(f"files is {files!r}: give a list of paths, one for each step")
-    files = [os.fspath(file) for file in files]
+    path, files = os.fsdecode(path), [os.fsdecode(file) for file in files]
     times = np.arange(len(files)) if times is None else reals("times", times)
     if times.shape != (len(files),):
         raise ValueError(f"times has the shape {times.shape}: give an increasing number for each of the {len(files)} files")
@@ -98,13 +98,36 @@ def write_series(path, files, times=None):
     for file in files:
         if not os.path.isfile(file):
             raise FileNotFoundError(f"there is no file {file}: write the steps before their series")
-    folder = os.path.dirname(os.path.abspath(os.fspath(path)))
+    folder = os.path.dirname(os.path.abspath(path))
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">', "  <Collection>"]
     for time, file in zip(times.tolist(), files):
         name = os.path.relpath(os.path.abspath(file), folder).replace(os.sep, "/")
         lines.append(f'    <DataSet timestep="{time!r}" part="0" file={quoteattr(name)}/>')
-    with open(path, "w", encoding="utf-8") as series:
-        series.write("\n".join([*lines, "  </Collection>", "</VTKFile>", ""]))
+    lines += ["  </Collection>", "</VTKFile>", ""]
+    try:
+        text = "\n".join(lines).encode()
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{error.object[error.start:error.end]!r} in the name of a file is no UTF-8, which a .pvd is: "
+                         "give the file another name") from None
+    _replace(path, text)
+
+
+def _replace(path, text):
+    """Writes a new file, which replaces an old one and takes over its mode when it is whole."""
+    path = os.path.realpath(path)  # a link stays, and names the new file
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise OSError(f"{path} cannot be written: it is not a file")
+    part = f"{path}.{os.getpid()}.part"
+    with open(part, "xb") as file:
+        try:
+            file.write(text)
+            file.close()
+            if os.path.exists(path):
+                os.chmod(part, os.stat(path).st_mode)
+            os.replace(part, path)
+        except BaseException:
+            os.unlink(part)
+            raise
 
 
 def points(coordinates):
