@@ -9,6 +9,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::motion::Motion;
 use super::pairs::{SurfacePair, SurfacePairs, Weight};
 use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
@@ -152,7 +153,8 @@ impl SurfacePairs {
         Ok(fields)
     }
 
-    /// The resultant of the contact forces on the slave's body, about a point of `dim` coordinates.
+    /// The resultant of the contact forces on the slave's body, about a point of `dim` coordinates. The pair of a node on
+    /// the first boundary of a sector acts with equal parts at that node and at its images on second boundaries.
     ///
     /// # Errors
     /// As [`Self::fields`]; [`Argument::Coordinates`] for the point.
@@ -176,11 +178,20 @@ impl SurfacePairs {
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
+        let on_second = self.motions_to_second();
         for (j, pair) in pairs.clone().zip(&self.pairs[pairs]) {
             let of_pair = &results.force[dim * j..dim * (j + 1)];
             let acting = pair.to_host(of_pair[0], &of_pair[1..]);
-            force += acting;
-            moment += (Vector3::from(pair.point) - about).cross(&acting);
+            let at = Vector3::from(pair.point);
+            let images = on_second.get(&pair.slave).map_or(&[][..], Vec::as_slice);
+            let part = acting / (1 + images.len()) as f64;
+            force += part;
+            moment += (at - about).cross(&part);
+            for motion in images {
+                let part = motion.turn * part;
+                force += part;
+                moment += (motion.of(at) - about).cross(&part);
+            }
             let slip = self.slip(j, results);
             resultant.friction_work -=
                 of_pair[1..].iter().zip(slip).map(|(force, slip)| force * slip).sum::<f64>();
@@ -195,6 +206,16 @@ impl SurfacePairs {
             (force.x, moment) = (0.0, Vector3::zeros());
         }
         Ok(Resultant { force: force.into(), moment: moment.into(), ..resultant })
+    }
+
+    /// The motions to the images on second boundaries of each node that has any. Faces of the model are around all of
+    /// these nodes, so each carries an equal part of the pair.
+    fn motions_to_second(&self) -> BTreeMap<usize, Vec<Motion>> {
+        let mut motions: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
+        for (_, first, motion) in self.images.on_second() {
+            motions.entry(*first).or_default().push(*motion);
+        }
+        motions
     }
 
     /// Motion of a pair along its tangents since the reference slip.

@@ -23,6 +23,7 @@ mod periods;
 mod press_fit;
 mod quadrilaterals;
 mod reach;
+mod resultants;
 mod rows;
 mod sectors;
 mod steps;
