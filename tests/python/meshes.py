@@ -97,6 +97,12 @@ class Pairs(unittest.TestCase):
         for name in ("points", "normals", "gaps", "areas"):
             np.testing.assert_allclose(getattr(contact, name), getattr(other, name), atol=1e-12, err_msg=name)
 
+    def test_the_axis_of_revolution_has_no_contact(self):
+        at = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
+        upper, lower = (at + [0, 1], {"quad": [[0, 1, 2, 3]]}), (at, {"quad": [[0, 1, 2, 3]]})
+        contact = signorini.pair_meshes(upper, lower, axisymmetric=True)
+        self.assertEqual((contact.report.slave_faces, contact.pairs), (3, 2))
+
     def test_skins_of_two_meshes(self):
         self.same(signorini.pair_meshes(self.upper, self.lower))
 

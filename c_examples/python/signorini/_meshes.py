@@ -5,7 +5,7 @@ import numpy as np
 from ._arrays import integers, reals
 from ._library import SignoriniError
 from ._mesh import TYPES, points
-from ._sector import checked, without_cuts
+from ._sector import checked, without_axis, without_cuts
 from ._skin import corners, dimension, skin, turned
 from ._sparse import columns_of, resists_turns
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
@@ -24,9 +24,9 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     points and cells as meshio reads it. Nodes count on: those of the slave's mesh, then those of
     the master's. The same object twice: one mesh with both bodies, whose nodes count once. master
     may be a Plane, Sphere, Cylinder, Cone, Torus or RigidFaces.
-    slave_faces, master_faces: None, the whole skin of the mesh, of a sector without its boundaries; the name of a set of cells or of a
-    physical group, of faces or of the cells whose skin is meant; a function of coordinates, (n, D),
-    that tells for each node whether its faces of the skin belong, which they do if all of their
+    slave_faces, master_faces: None, the whole skin of the mesh, of a sector without its boundaries, of a body of revolution without
+    its axis; the name of a set of cells or of a physical group, of faces or of the cells whose skin is meant; a function of
+    coordinates, (n, D), that tells for each node whether its faces of the skin belong, which they do if all of their
     nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
     turned to the outside; those of the slave that lie over nothing and look elsewhere than those beside
     them over the master have no say in the normals of pairs. slave_faces, uncovered and beyond count all faces, and
@@ -35,7 +35,8 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     has a volume. The rest: as for pair_surfaces.
     """
     sector = None if pairing.get("sector") is None else checked(pairing["sector"])
-    first = _Mesh("slave", slave, sector)
+    is_of_rings = bool(pairing.get("axisymmetric", False))
+    first = _Mesh("slave", slave, sector, is_of_rings)
     if isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         if master_faces is not None:
             raise ValueError("master_faces is given, but master is an obstacle: leave it out")
@@ -48,7 +49,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
             raise ValueError("slave and master are one mesh: give slave_faces and master_faces")
         others = first.faces("master_faces", master_faces)
         return _covered(first.coordinates, faces, others, pairing)
-    second = _Mesh("master", master, sector)
+    second = _Mesh("master", master, sector, is_of_rings)
     if second.coordinates.shape[1] != first.coordinates.shape[1]:
         raise ValueError(f"slave has {first.coordinates.shape[1]} coordinates for each node and master "
                          f"{second.coordinates.shape[1]}: give two meshes of one dimension")
@@ -135,8 +136,8 @@ def _normal(x):
 class _Mesh:
     """Coordinates, (n, D), and blocks of cells: (type, nodes)."""
 
-    def __init__(self, name, mesh, sector=None):
-        self.name, self.mesh, self.sector = name, mesh, sector
+    def __init__(self, name, mesh, sector=None, is_of_rings=False):
+        self.name, self.mesh, self.sector, self.is_of_rings = name, mesh, sector, is_of_rings
         if hasattr(mesh, "points") and hasattr(mesh, "cells"):
             coordinates, cells = mesh.points, mesh.cells
         elif isinstance(mesh, tuple) and len(mesh) == 2:
@@ -163,6 +164,8 @@ class _Mesh:
         """Faces as lists of nodes, turned to the outside where they lie on the skin."""
         if wanted is None:
             skin = self.skin if self.sector is None else without_cuts(self.skin, self.coordinates, self.sector)
+            if self.is_of_rings:
+                skin = without_axis(skin, self.coordinates)
             return self._some(skin, f"{self.name} has no cells with an inside: give {argument}")
         if isinstance(wanted, str):
             return self._some(self._of_set(argument, wanted), f"{argument}: the set {wanted!r} has no faces")

@@ -94,6 +94,12 @@ def without_cuts(faces, coordinates, sector):
     return [face for face in faces if not any(nodes.issuperset(face) for nodes in boundaries)]
 
 
+def without_axis(faces, coordinates):
+    """Faces of a body of revolution without those on its axis x = 0, which no other body reaches."""
+    on_axis = np.abs(coordinates[:, 0]) <= _NEAR * np.ptp(coordinates, axis=0).max()
+    return [face for face in faces if not on_axis[list(face)].all()]
+
+
 def _axis(sector, dim):
     axis = np.array([0.0, 0.0, 1.0]) if dim == 2 else fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
     if not 0 < np.linalg.norm(axis) < np.inf:
