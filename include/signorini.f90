@@ -844,7 +844,7 @@ module signorini
     end type
 
     private :: text_of, finish, refused, refuse, check_size, check_shape
-    private :: check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
+    private :: check_finite, check_case, check_pairs, check_square, check_dim, check_data, check_starts, check_second
     private :: check_model, check_masters, choose_law, choose_settings, place_of_settings
     private :: check_surfaces, list_faces, check_results, prepare, keep_pairs, keep_arrays, reals_of, address2, finish_sparse
     private :: sparse_matrix, check_components, flat_position, dimension_of, check_found, no_stiffness
@@ -942,6 +942,7 @@ contains
         type(contact_model) :: model
         type(refusal) :: wrong
         call check_data(wrong, shape(w), size(q), size(gap), 'w', 'q')
+        call check_finite(wrong, 2, 'q', q)
         if (refused(wrong, info, message)) return
         call model%new_flexibility(dimension_of(size(q), size(gap)), w, info, message)
         info = flat_position(info, -1, -1)
@@ -978,6 +979,7 @@ contains
         type(refusal) :: wrong
         call check_components(wrong, 5, size(q), size(gap), 'q')
         call check_size(wrong, 1, 'col_start', size(col_start), size(q) + 1, 'one more than q')
+        call check_finite(wrong, 5, 'q', q)
         if (refused(wrong, info, message)) return
         call model%new_flexibility_sparse(dimension_of(size(q), size(gap)), col_start, row, values, &
             triangle, info, message)
@@ -2306,6 +2308,20 @@ contains
         character(len=*), intent(in) :: name, meaning
         if (found /= wanted) call refuse(wrong, position, name // ' has ' // entries(found) // &
             ', it must have ' // text(wanted) // ': ' // meaning)
+    end subroutine
+
+    subroutine check_finite(wrong, position, name, values)
+        use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+        type(refusal), intent(inout) :: wrong
+        integer, intent(in) :: position
+        character(len=*), intent(in) :: name
+        real(c_double), intent(in) :: values(:)
+        integer :: k
+        do k = 1, size(values)
+            if (ieee_is_finite(values(k))) cycle
+            call refuse(wrong, position, name // '(' // text(k) // ') is not finite')
+            return
+        end do
     end subroutine
 
     subroutine check_shape(wrong, position, name, found, wanted, meaning)

@@ -63,6 +63,15 @@ program mistakes
     call told('coordinates of some nodes', -2, 'coordinates has the shape (2, 3), it must be (2, 4)')
     call surfaces%release()
 
+    ! The bits of a NaN.
+    f(2) = transfer(9221120237041090560_c_int64_t, f(2))
+    call contact_solve_flexibility(k, f, gap, d, force, info, message=message)
+    call told('q with a NaN', -2, 'q(2) is not finite')
+    call contact_solve_flexibility_sparse(start, row, values, SIGNORINI_TRIANGLE_LOWER, f, gap, d, force, info, &
+        message=message)
+    call told('q of a sparse flexibility with a NaN', -5, 'q(2) is not finite')
+    f(2) = 1.5_dp
+
     ! Right in themselves: remarks.
     call contact_solve(k, f, gap - 0.1_dp, d, force, info, friction=mu, report=report, message=message)
     call remarked('gap of the wrong sign', SIGNORINI_REMARK_GAPS_NEGATIVE)
