@@ -43,6 +43,7 @@ C
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('no such LAW', INFO, -7, NFAIL)
       CALL SAYS('LAW is 8', NFAIL)
+      CALL SAYS('SGNOFR (0) to SGTIED (7)', NFAIL)
       CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 9,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)
       CALL EXPECT('no such METHOD', INFO, -10, NFAIL)

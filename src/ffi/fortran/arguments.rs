@@ -210,7 +210,7 @@ impl<I: Integer> Argument<*const I> {
     /// LAW.
     pub(super) fn law(self) -> Outcome<i32> {
         let (first, last) = (SIGNORINI_LAW_FRICTIONLESS, LAST_LAW);
-        let wanted = format!("a law of signorini.inc, from SGNOFR ({first}) to {last}");
+        let wanted = format!("a law of signorini.inc, from SGNOFR ({first}) to SGTIED ({last})");
         self.one_of(first..=last, &wanted)
     }
 }
