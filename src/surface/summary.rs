@@ -1,6 +1,8 @@
 //! The findings of a pairing, in words.
 
-use super::pairs::SurfacePairs;
+use std::f64::consts::TAU;
+
+use super::pairs::{SurfacePair, SurfacePairs};
 use crate::error::{Message, index};
 
 impl SurfacePairs {
@@ -17,12 +19,36 @@ impl SurfacePairs {
                  surfaces are curved, their facets are larger than the interference; give their true shapes"
             );
         }
+        if let Some(least) = self.all_overlap_by() {
+            text += &format!(
+                "; every pair overlaps, by at least {}, more than a face is long: if the sides do not, the faces of both are \
+                 turned over",
+                short(least)
+            );
+        }
         // In one clause, the last.
         let beyond = self.beyond().join(", and ");
         if !beyond.is_empty() {
             text += &format!("; {beyond}");
         }
         text.into()
+    }
+
+    /// The least overlap of all pairs, if each overlaps another body by more than the length of a face around its node, which
+    /// its area tells.
+    fn all_overlap_by(&self) -> Option<f64> {
+        let length = |pair: &SurfacePair| match (self.dim, self.axisymmetric) {
+            (PLANE, false) => pair.area,
+            // On the axis the ring is a disc.
+            (PLANE, true) => (pair.area / (TAU * pair.point[0])).min(pair.area.sqrt()),
+            _ => pair.area.sqrt(),
+        };
+        let overlap = |pair: &SurfacePair| {
+            let is_deep = !pair.masters().is_empty() && -pair.measured_gap > length(pair);
+            is_deep.then_some(-pair.measured_gap)
+        };
+        let overlaps: Option<Vec<f64>> = self.pairs.iter().map(overlap).collect();
+        overlaps?.into_iter().reduce(f64::min)
     }
 
     /// The faces that point at a master too far away, and those that overlap one by too much.
@@ -103,6 +129,9 @@ impl SurfacePairs {
 
 /// One of so many overlapping faces with gaps that differ is a wedge or an edge; more are facets.
 const A_PART: usize = 4;
+
+/// Dimensions of the plane.
+const PLANE: usize = 2;
 
 /// Lengths in here are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e4;

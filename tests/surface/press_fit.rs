@@ -180,6 +180,7 @@ fn facets_that_are_larger_than_the_interference_are_told() {
         let settings =
             SurfaceSettings { shapes: [shape; 2], clearance: -INTERFERENCE, ..Default::default() };
         let summary = fit.pairs(false, &settings).summary().to_string();
+        assert!(!summary.contains("every pair overlaps"), "{summary}");
         assert_eq!(
             summary.contains("facets are larger than the interference"),
             is_told,

@@ -401,6 +401,34 @@ fn level(cells: usize, height: f64) -> Sheet {
     flat.mapped(|[x, y, _]| [x, y, height])
 }
 
+/// The clause of the summary on pairs all of which overlap.
+const EVERY: &str = "; every pair overlaps, by at least 0.5, more than a face is long: if the sides do not, the faces of both are \
+                     turned over";
+
+/// Open surfaces with the faces of both sides turned over overlap by their gap; the summary says so in the plane and in space.
+#[test]
+fn sides_that_are_both_turned_over_are_told() {
+    let settings = SurfaceSettings { search_distance: Some(0.6), ..SurfaceSettings::default() };
+    let above = TwoSheets::new(3, level(5, 0.5), level(3, 0.0).turned());
+    // The body of the upper line is above it as it is drawn, and below it as it is turned over.
+    let (nodes, line) = line(&steps(0.0, 1.0, 4), false, 0);
+    let line = Sheet { nodes, faces: line };
+    let turned = |mut sheet: Sheet| {
+        sheet.faces.iter_mut().for_each(|face| face.reverse());
+        sheet
+    };
+    let lifted = line.clone().mapped(|[x, y, z]| [x, y + 0.5, z]);
+    let in_plane = TwoSheets::new(2, turned(lifted.clone()), line.clone());
+    for (sheets, axisymmetric) in [(&above, false), (&in_plane, false), (&in_plane, true)] {
+        let found = sheets.pair(&SurfaceSettings { axisymmetric, ..settings.clone() }).unwrap();
+        assert!(!found.pairs.is_empty());
+        let summary = found.summary().to_string();
+        assert!(summary.ends_with(EVERY), "{summary}");
+    }
+    let open = TwoSheets::new(2, lifted, turned(line)).pair(&settings).unwrap();
+    assert!(!open.summary().to_string().contains("every pair"), "{}", open.summary());
+}
+
 /// A square that overlaps another one by a half, more than its faces are long, is told with that depth, and paired if the
 /// search distance allows for it. The upper and lower sides of two plates that stand on each other overlap nothing.
 #[test]
@@ -420,6 +448,7 @@ fn deep_overlaps_are_told() {
         let found = deep.pair(&settings).unwrap();
         assert_eq!((found.pairs.len(), found.report.beyond.len()), (36, 0));
         assert!(found.pairs.iter().all(|pair| (pair.gap + 0.5).abs() < 1e-14));
+        assert!(found.summary().to_string().contains(EVERY), "{}", found.summary());
         let upper = joined(level(5, 0.0).turned(), level(5, 1.0));
         let lower = joined(level(3, 0.0), level(3, -1.0).turned());
         let settings = SurfaceSettings { pairing, ..SurfaceSettings::default() };
