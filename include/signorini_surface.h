@@ -533,7 +533,10 @@ struct signorini_penetration {
     uint32_t struct_size; /**< sizeof(signorini_penetration). */
     /** Number of slave nodes and of middles of slave faces that have passed through; 0: none. */
     int32_t points;
-    /** How deep the deepest is, along the slave's normal before the motion; length. */
+    /**
+     * How deep the deepest is, along the slave's normal before the motion; of an obstacle that is a
+     * shape its distance from the shape; length.
+     */
     double depth;
     double point[3];      /**< Where it is, moved; in 2D the third entry is 0. */
     int64_t face;         /**< Its slave face. */
@@ -548,7 +551,8 @@ struct signorini_penetration {
  * the master, and all of whose nodes have pairs, are left to these and not looked at; where some
  * nodes of a face have pairs, these may pass by a tenth of its size. What overlaps before the
  * motion has not passed through by it, and is not counted: data.beyond has the faces that do, by
- * more than was looked at. A clearance of the settings stands between the surfaces here too.
+ * more than was looked at. A clearance of the settings stands between the surfaces here too. A
+ * point that has passed through the whole of a shape, as a bar, and is outside again is not found.
  *
  * @param contact      the pairs of one zone, as they were made
  * @param u            displacements of all your degrees of freedom, as signorini_model_recover

@@ -5,6 +5,9 @@
 //! and the same point of the master was not behind it before. What was, as layers behind each other are and surfaces that overlap
 //! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
 //! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
+//!
+//! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
+//! is not found.
 
 use std::collections::HashSet;
 
@@ -53,7 +56,7 @@ enum KeptMaster {
 pub struct Penetration {
     /// Number of slave nodes and of middles of slave faces that have passed through.
     pub count: usize,
-    /// How deep the deepest is, along the slave's normal before the motion.
+    /// How deep the deepest is, along the slave's normal before the motion; its distance from a rigid shape.
     pub depth: f64,
     /// Where it is, moved.
     pub point: [f64; 3],

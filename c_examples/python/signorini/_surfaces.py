@@ -73,7 +73,8 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 Penetration = namedtuple("Penetration", "points depth point face node master_face sentence")
 Penetration.__doc__ = """What has passed through the other side without a pair; the deepest point of it.
 
-points: number of slave nodes and of middles of slave faces that have.  depth: along the slave's normal.
+points: number of slave nodes and of middles of slave faces that have.  depth: along the slave's normal,
+of a rigid shape its distance from the shape.
 point: where, moved, (3,).  face: its slave face.  node: its slave node; -1: the middle of the face.
 master_face: the face that it has passed through; -1: a shape.  sentence: the same in words.
 """
@@ -343,7 +344,8 @@ class SurfacePairs(Remade):
     def penetration(self, u):
         """What has passed through the other side without a pair: a Penetration, or None if nothing has.
 
-        u: displacements of all degrees of freedom, as Model.recover returns them.
+        u: displacements of all degrees of freedom, as Model.recover returns them. A point that has passed through the whole
+        of a rigid shape and is outside again is not found.
         """
         found = sized(PenetrationData)
         u = self._displacements(u)
