@@ -139,9 +139,15 @@ pub unsafe extern "C" fn signorini_model_prove(
 
 /// The states of pairs by their codes.
 pub(super) fn parsed_states(at: At<'_>, codes: &[i32]) -> Outcome<Vec<State>> {
-    let state = |(pair, code): (usize, &i32)| {
-        let refuse = || at.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
-        State::numbered(*code).map_or_else(refuse, Ok)
-    };
-    codes.iter().enumerate().map(state).collect()
+    codes.iter().enumerate().map(|of_pair| parsed_state(at, of_pair)).collect()
+}
+
+/// Refuses a code that is no state.
+pub(super) fn check_states(at: At<'_>, codes: &[i32]) -> Outcome<()> {
+    codes.iter().enumerate().try_for_each(|of_pair| parsed_state(at, of_pair).map(drop))
+}
+
+fn parsed_state(at: At<'_>, (pair, code): (usize, &i32)) -> Outcome<State> {
+    let refuse = || at.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
+    State::numbered(*code).map_or_else(refuse, Ok)
 }

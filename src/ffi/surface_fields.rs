@@ -4,9 +4,11 @@
 use std::ptr::null;
 
 use super::args::{Arrays, c_entry};
+use super::certify::check_states;
 use super::guard::{Outcome, refused};
 use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
+use crate::error::Argument;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
 use crate::surface::{NodalFields, PairResults};
@@ -83,6 +85,7 @@ pub unsafe extern "C" fn signorini_surface_fields(
         let results = pair_results(arrays, contact, [2, 3, 4, 5], [gap, slip0, d, F])?;
         let (count, at_state) = (contact.arrays.count, arrays.at(6, "state"));
         let state = at_state.optional(state, count)?;
+        state.map_or(Ok(()), |codes| check_states(at_state, codes))?;
         let at = arrays.at(7, "fields");
         let given = at.whole(fields)?;
         at.check_reserved(given.reserved)?;
@@ -98,7 +101,7 @@ pub unsafe extern "C" fn signorini_surface_fields(
         ];
         let states = at.named("state").optional_output(given.state, nodes)?;
         arrays.check_overlap()?;
-        let found = contact.found.fields(&results).map_err(refused(|_| 5))?;
+        let found = contact.found.fields(&results).map_err(refused(position_in([2, 3, 4, 5])))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
             scatter(nodes, values, |at, of_node| place.part(at, of_node.len()).write(of_node));
@@ -132,7 +135,11 @@ pub unsafe extern "C" fn signorini_surface_resultant(
         let origin = [0.0; 3];
         let point = arrays.at(5, "point").optional(point, dim)?.unwrap_or(&origin[..dim]);
         let resultant = arrays.at(6, "resultant").out_structure(resultant)?;
-        let sums = contact.found.resultant(&results, point).map_err(refused(|_| 4))?;
+        let position = |wrong| match wrong {
+            Argument::Coordinates => 5,
+            wrong => position_in([1, 2, 3, 4])(wrong),
+        };
+        let sums = contact.found.resultant(&results, point).map_err(refused(position))?;
         let told = SignoriniResultant {
             struct_size: size_of::<SignoriniResultant>() as u32,
             reserved: 0,
@@ -161,6 +168,16 @@ pub(super) fn pair_results<'a>(
         d: arrays.at(positions[2], "d").required(d, dim * pairs)?,
         force: arrays.at(positions[3], "F").required(force, dim * pairs)?,
     })
+}
+
+/// The position of an argument of the pairs among those of gap, slip0, d and F.
+pub(super) fn position_in([gap, slip0, d, force]: [i32; 4]) -> impl Fn(Argument) -> i32 {
+    move |wrong| match wrong {
+        Argument::Gap => gap,
+        Argument::ReferenceSlip => slip0,
+        Argument::Start => d,
+        _ => force,
+    }
 }
 
 /// Hands over the values of each of some nodes, with their place among those of all nodes.

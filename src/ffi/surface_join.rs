@@ -11,7 +11,7 @@ use super::certify::parsed_states;
 use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::surface::SignoriniFaces;
-use super::surface_fields::pair_results;
+use super::surface_fields::{pair_results, position_in};
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::law::State;
 use crate::problem::Law;
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn signorini_surface_table(
         for (name, pairs) in joined.zones() {
             let origin = &[0.0; 3][..joined.found.dim];
             let sums = joined.found.resultant_of(pairs.clone(), &results, origin);
-            let sums = sums.map_err(refused(|_| 3))?;
+            let sums = sums.map_err(refused(position_in([1, 1, 2, 3])))?;
             let [x, y, z] = sums.force;
             let numbers = [x, y, z, sums.pressed_area, sums.largest_pressure];
             add_row(&mut table, name, counts(&states[pairs]), numbers.map(scientific));

@@ -11,8 +11,9 @@ use std::ops::Range;
 
 use super::motion::Motion;
 use super::pairs::{SurfacePair, SurfacePairs, Weight};
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, entry};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
+use crate::linalg::vector::first_not_finite;
 use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
@@ -105,8 +106,8 @@ impl SurfacePairs {
     /// Pressure, traction, clearance and slip at the nodes of both sides.
     ///
     /// # Errors
-    /// An array of another length than the pairs have ([`Argument::Gap`], [`Argument::ReferenceSlip`],
-    /// [`Argument::Start`] for `d`, [`Argument::Load`] for the forces).
+    /// An array of another length than the pairs have, or with an entry that is not finite; gaps may be +infinity
+    /// ([`Argument::Gap`], [`Argument::ReferenceSlip`], [`Argument::Start`] for `d`, [`Argument::Load`] for the forces).
     pub fn fields(&self, results: &PairResults<'_>) -> Result<NodalFields, Error> {
         self.check(results)?;
         let of_pairs: Vec<Values> =
@@ -175,6 +176,7 @@ impl SurfacePairs {
         self.check(results)?;
         let dim = self.dim;
         check_length(Argument::Coordinates, "point", point.len(), dim)?;
+        check_finite(Argument::Coordinates, "point", point)?;
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
@@ -249,7 +251,19 @@ impl SurfacePairs {
         check_length(Argument::Gap, "gap", gap.map_or(pairs, <[f64]>::len), pairs)?;
         let slips = (self.dim - 1) * pairs;
         let given = reference_slip.map_or(slips, <[f64]>::len);
-        check_length(Argument::ReferenceSlip, "slip0", given, slips)
+        check_length(Argument::ReferenceSlip, "slip0", given, slips)?;
+        check_finite(Argument::Start, "d", d)?;
+        check_finite(Argument::Load, "F", force)?;
+        check_finite(Argument::ReferenceSlip, "slip0", reference_slip.unwrap_or_default())?;
+        // The gap of a pair that can never touch is infinite.
+        let never = |gap: &f64| !(*gap > f64::NEG_INFINITY);
+        match gap.and_then(|gaps| gaps.iter().position(never)) {
+            Some(j) => {
+                let message = entry("gap", [j]) + " must be a number or +infinity";
+                Err(Error::invalid(Argument::Gap, message))
+            }
+            None => Ok(()),
+        }
     }
 }
 
@@ -258,4 +272,11 @@ fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> 
         return Ok(());
     }
     Err(Error::invalid(argument, format!("{name} has {given} entries, it needs {needed}")))
+}
+
+fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
+    match first_not_finite(values) {
+        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
+        None => Ok(()),
+    }
 }

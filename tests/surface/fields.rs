@@ -153,6 +153,35 @@ fn arrays_of_another_length_are_refused() {
     assert!(pairs.resultant(&good, &[0.0; 2]).is_err());
 }
 
+#[test]
+fn entries_that_are_no_numbers_are_refused() {
+    let (_, pairs) = found([Shape::T3, Shape::T3], Pairing::DualMortar);
+    let [d, force, slip0] = random(&pairs);
+    let gap = vec![f64::INFINITY; pairs.pairs.len()];
+    let good = PairResults { gap: Some(&gap), reference_slip: Some(&slip0), d: &d, force: &force };
+    assert!(pairs.fields(&good).is_ok());
+    let wrong = |values: &[f64]| {
+        let mut values = values.to_vec();
+        values[1] = f64::NAN;
+        values
+    };
+    let [gap, d, force, slip0] = [&gap, &d, &force, &slip0].map(|values| wrong(values));
+    for (results, says) in [
+        (PairResults { gap: Some(&gap), ..good }, "gap[1] must be a number or +infinity"),
+        (PairResults { d: &d, ..good }, "d[1] is not finite"),
+        (PairResults { force: &force, ..good }, "F[1] is not finite"),
+        (PairResults { reference_slip: Some(&slip0), ..good }, "slip0[1] is not finite"),
+    ] {
+        for error in
+            [pairs.fields(&results).unwrap_err(), pairs.resultant(&results, &[0.0; 3]).unwrap_err()]
+        {
+            assert!(error.message().contains(says), "{error}");
+        }
+    }
+    let error = pairs.resultant(&good, &[0.0, f64::NAN, 0.0]).unwrap_err();
+    assert!(error.message().contains("point[1] is not finite"), "{error}");
+}
+
 /// VTK 9 wrote this for the same arrays in its own binary form without compression, but for white space.
 #[test]
 fn a_mesh_is_written_as_vtk_has_it() {
