@@ -96,7 +96,7 @@ pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
 }
 
 /// Refuses a gap that is neither a number nor `+inf`.
-pub(super) fn check_gaps(gap: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_gaps(gap: &[f64]) -> Result<(), Error> {
     let wrong = gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY);
     let Some(i) = wrong else { return Ok(()) };
     let (place, gap) = (entry("gap", [i]), gap[i]);

@@ -11,10 +11,10 @@ use std::ops::Range;
 
 use super::motion::Motion;
 use super::pairs::{SurfacePair, SurfacePairs, Weight};
-use crate::error::{Argument, Error, entry};
+use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::linalg::vector::first_not_finite;
 use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
+use crate::problem::{check_finite, check_gaps};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
 #[derive(Clone, Copy, Debug)]
@@ -176,7 +176,7 @@ impl SurfacePairs {
         self.check(results)?;
         let dim = self.dim;
         check_length(Argument::Coordinates, "point", point.len(), dim)?;
-        check_finite(Argument::Coordinates, "point", point)?;
+        check_finite(("point", Argument::Coordinates), point)?;
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
@@ -252,18 +252,10 @@ impl SurfacePairs {
         let slips = (self.dim - 1) * pairs;
         let given = reference_slip.map_or(slips, <[f64]>::len);
         check_length(Argument::ReferenceSlip, "slip0", given, slips)?;
-        check_finite(Argument::Start, "d", d)?;
-        check_finite(Argument::Load, "F", force)?;
-        check_finite(Argument::ReferenceSlip, "slip0", reference_slip.unwrap_or_default())?;
-        // The gap of a pair that can never touch is infinite.
-        let never = |gap: &f64| !(*gap > f64::NEG_INFINITY);
-        match gap.and_then(|gaps| gaps.iter().position(never)) {
-            Some(j) => {
-                let message = entry("gap", [j]) + " must be a number or +infinity";
-                Err(Error::invalid(Argument::Gap, message))
-            }
-            None => Ok(()),
-        }
+        check_finite(("d", Argument::Start), d)?;
+        check_finite(("F", Argument::Load), force)?;
+        check_finite(("slip0", Argument::ReferenceSlip), reference_slip.unwrap_or_default())?;
+        check_gaps(gap.unwrap_or_default())
     }
 }
 
@@ -272,11 +264,4 @@ fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> 
         return Ok(());
     }
     Err(Error::invalid(argument, format!("{name} has {given} entries, it needs {needed}")))
-}
-
-fn check_finite(argument: Argument, name: &str, values: &[f64]) -> Result<(), Error> {
-    match first_not_finite(values) {
-        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
-        None => Ok(()),
-    }
 }

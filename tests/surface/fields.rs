@@ -167,7 +167,7 @@ fn entries_that_are_no_numbers_are_refused() {
     };
     let [gap, d, force, slip0] = [&gap, &d, &force, &slip0].map(|values| wrong(values));
     for (results, says) in [
-        (PairResults { gap: Some(&gap), ..good }, "gap[1] must be a number or +infinity"),
+        (PairResults { gap: Some(&gap), ..good }, "gap[1] is NaN, it must be a number or +inf"),
         (PairResults { d: &d, ..good }, "d[1] is not finite"),
         (PairResults { force: &force, ..good }, "F[1] is not finite"),
         (PairResults { reference_slip: Some(&slip0), ..good }, "slip0[1] is not finite"),
