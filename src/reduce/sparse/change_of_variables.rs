@@ -23,9 +23,9 @@ use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::Rows;
 
-/// Coefficients of rows that are solved for one of their own degrees of freedom are at most of this size: the largest in the row
-/// over that of the unknown.
-const ORDINARY: f64 = 10.0;
+/// Coefficients up to this size count as no growth. Rows of meshes that do not match lead to them, along planes of symmetry and between
+/// surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
+const ORDINARY: f64 = 1e4;
 
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
