@@ -3,11 +3,11 @@
 //!
 //! Equations with an unknown of their own come first: they change no other one. The rest is eliminated
 //! in the order of what is left of their coefficients, and the short ones first among equals: what an equation
-//! with little left hands on is enlarged rounding.
+//! with little left hands on is enlarged rounding. An equation of which less than [`AGREES`] is left follows from the others.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::tolerances::{ROUNDING, ROUNDING_OF_SUM};
+use super::tolerances::{AGREES, ROUNDING};
 
 /// Coefficients of unknowns, or of equations' right sides.
 pub type Terms = Vec<(usize, f64)>;
@@ -88,7 +88,7 @@ impl<'c> Elimination<'c> {
         let mut counts: Vec<usize> = self.having.iter().map(Vec::len).collect();
         let mut waiting: Vec<usize> = (0..self.sums.len()).rev().collect();
         while let Some(i) = waiting.pop() {
-            let rounding = ROUNDING_OF_SUM * self.scale[i];
+            let rounding = AGREES * self.scale[i];
             let least = rounding.max(LEAST_PIVOT * self.largest_choice(i));
             let own = self.choices(i).filter(|(k, a)| counts[*k] == 1 && a.abs() >= least);
             let best = own.max_by(|(k, a), (l, b)| a.abs().total_cmp(&b.abs()).then(l.cmp(k)));
@@ -120,8 +120,8 @@ impl<'c> Elimination<'c> {
         while let Some((_, _, i)) = queue.pop_first() {
             self.is_open[i] = false;
             let largest = self.largest_choice(i);
-            if largest <= ROUNDING_OF_SUM * self.scale[i] {
-                // Nothing is left but rounding.
+            if largest <= AGREES * self.scale[i] {
+                // The host has said the equation before: nothing is left but the rounding of its numbers.
                 let keeps = |k: &usize| *k >= self.count || !self.may_choose[*k];
                 let sum = self.sums[i].iter().copied().filter(|(k, _)| keeps(k)).collect();
                 self.sums[i] = sum;
