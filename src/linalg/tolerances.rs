@@ -24,9 +24,9 @@
 //! condition number 1e10, the largest that can be certified, have pivots of 1e-10 and slightly less.
 //! [`SINGULAR_BASIS`] lies at the last digit because iterative refinement on the data follows.
 
-/// Numbers that a host gives twice, across the diagonal, as weights that sum to 1 or in rows that repeat others, agree up to this, relative to their
-/// sizes: far above the rounding of a condensation (measured 1e-13 from CalculiX and MUMPS) and of tables with ten digits,
-/// far below a slip of indices and what a certificate of 1e-10 can bear.
+/// Numbers that a host gives twice, across the diagonal, as weights that sum to 1 or in rows that repeat others, agree up
+/// to this, relative to their sizes: far above the rounding of a condensation (measured 1e-13 from CalculiX and MUMPS) and of
+/// tables with ten digits, far below a slip of indices and what a certificate of 1e-10 can bear.
 pub const AGREES: f64 = 1e-9;
 
 /// Rounding that is left of a sum that should be zero, relative to its terms: about 50 units of double

@@ -23,8 +23,8 @@ use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::Rows;
 
-/// Coefficients up to this size count as no growth. Rows of meshes that do not match lead to them, along planes of symmetry and between
-/// surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
+/// Coefficients up to this size count as no growth. Rows of meshes that do not match lead to them, along planes of symmetry
+/// and between surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
 const ORDINARY: f64 = 1e4;
 
 pub(super) struct ChangeOfVariables {
