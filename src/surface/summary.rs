@@ -38,9 +38,9 @@ impl SurfacePairs {
     /// its area tells.
     fn all_overlap_by(&self) -> Option<f64> {
         let length = |pair: &SurfacePair| match (self.dim, self.axisymmetric) {
-            (PLANE, false) => pair.area,
+            (2, false) => pair.area,
             // On the axis the ring is a disc.
-            (PLANE, true) => (pair.area / (TAU * pair.point[0])).min(pair.area.sqrt()),
+            (2, true) => (pair.area / (TAU * pair.point[0])).min(pair.area.sqrt()),
             _ => pair.area.sqrt(),
         };
         let overlap = |pair: &SurfacePair| {
@@ -129,9 +129,6 @@ impl SurfacePairs {
 
 /// One of so many overlapping faces with gaps that differ is a wedge or an edge; more are facets.
 const A_PART: usize = 4;
-
-/// Dimensions of the plane.
-const PLANE: usize = 2;
 
 /// Lengths in here are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e4;

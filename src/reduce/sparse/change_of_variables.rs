@@ -18,14 +18,11 @@ use crate::linalg::sparse_matrix::{
     transpose_times,
 };
 use crate::linalg::sparse_schur::{FactorProgress, Failure};
+use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
 use crate::reduce::pairs::Rows;
-
-/// Coefficients up to this size count as no growth. Rows of meshes that do not match lead to them, along planes of symmetry
-/// and between surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
-const ORDINARY: f64 = 1e4;
 
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
@@ -79,12 +76,14 @@ impl ChangeOfVariables {
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
     }
 
-    /// The growth of each kept variable: its largest coefficient in degrees of freedom of the host, beside [`ORDINARY`];
-    /// empty if none has grown.
+    /// The growth of each kept variable: its largest coefficient in degrees of freedom of the host, beside one whose square
+    /// makes a pivot suspicious; empty if none has grown. Rows of meshes that do not match lead to smaller ones, along planes of
+    /// symmetry and between surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
     pub(super) fn growth(&self) -> Vec<f64> {
         let largest = |j| norm_inf(column(&self.matrix, j).1);
         let kept = self.free.len()..self.unknowns;
-        let growth: Vec<f64> = kept.map(|j| (largest(j) / ORDINARY).max(1.0)).collect();
+        let growth: Vec<f64> =
+            kept.map(|j| (largest(j) * SUSPICIOUS_PIVOT.sqrt()).max(1.0)).collect();
         if growth.iter().all(|growth| *growth == 1.0) { Vec::new() } else { growth }
     }
 

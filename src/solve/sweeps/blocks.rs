@@ -7,9 +7,6 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::{add_columns, axpy, vectorised};
 use crate::workers::{columns_to_share, pieces, reading};
 
-/// Longest block, in the length of one whose components all move: one thread multiplies within a block.
-const LONG: usize = 4;
-
 /// The steps of some components, the others zero.
 type Steps = [f64; 3];
 
@@ -53,9 +50,10 @@ pub fn over_all<const DIM: usize>(
             }
         });
         first = block.end;
-        // The next block is so long that its products are shared if as few components move in it.
-        let groups = block.len() * least / moved.max(1) / DIM;
-        length = DIM * groups.clamp(least / DIM, LONG * least / DIM);
+        // The next block is so long that its products are shared if as few components move in it; at most twice as long, as
+        // one thread multiplies within a block.
+        let groups = (block.len() * least / moved.max(1)).min(2 * block.len()) / DIM;
+        length = (DIM * groups).max(least);
     }
     change.sqrt()
 }
