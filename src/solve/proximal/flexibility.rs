@@ -76,7 +76,7 @@ pub fn solve(
     }
     let eta = solution.certificate.eta;
     if let Some(proof) = proof.or_else(|| at_a_wall(problem)) {
-        solution.message = sentence(problem, Some(&proof), true, eta, number).into();
+        solution.message = sentence(problem, &proof, true, number).into();
         let mut forces = bounded(problem, &proof);
         normalise(&mut forces);
         solution.status = Status::NoEquilibrium;

@@ -51,21 +51,14 @@ pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64
     relation.balance_each_other(&forces, 0.0) && exceed_gaps(problem, &forces, relation.offset())
 }
 
-/// Why there is no solution: the pattern in which forces grow, if there is one, and whether it is `proved`
-/// that gaps contradict each other. `number` tells which pair of the host a pair is.
+/// Why there is no solution: the pattern in which forces grow, and whether it is `proved` that gaps contradict each
+/// other. `number` tells which pair of the host a pair is.
 pub fn sentence<R: Redundant>(
     problem: &ContactProblem<'_, R>,
-    pattern: Option<&[f64]>,
+    pattern: &[f64],
     proved: bool,
-    eta: f64,
     number: &dyn Fn(usize) -> usize,
 ) -> String {
-    let Some(pattern) = pattern else {
-        return format!(
-            "no solution was found: the pairs depend on each other, and their forces do not settle (eta is \
-             {eta:.1e})"
-        );
-    };
     let dim = problem.dim();
     let least = COUNTS * norm_inf(pattern);
     let carries = |pair: &usize| norm_inf(&pattern[dim * pair..dim * (pair + 1)]) > least;

@@ -9,7 +9,8 @@
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
 //! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
 //! round, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
-//! default method has all its means.
+//! default method has all its means: a round that it leaves without a solution, and no nearer to one, ends the rounds, and
+//! its sentence is that of the problem.
 //!
 //! Where the forces grow without end there is no solution near: they balance each other and wedge the bodies,
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
@@ -105,9 +106,9 @@ pub fn solve<'p, R: Clone + Redundant>(
         let settings = Settings { method: Method::Auto, ..settings.clone() };
         proved = rounds(&without_friction(problem), &settings, None)?.pattern.filter(is_proof);
     }
-    let pattern = proved.as_deref().or(found.pattern.as_deref());
-    let eta = found.solution.certificate.eta;
-    found.solution.message = sentence(problem, pattern, proved.is_some(), eta, number).into();
+    if let Some(pattern) = proved.as_deref().or(found.pattern.as_deref()) {
+        found.solution.message = sentence(problem, pattern, proved.is_some(), number).into();
+    }
     Ok((found, proved))
 }
 
@@ -166,7 +167,8 @@ struct Rounds<'p, 's, R: Redundant> {
 impl<R: Redundant> Rounds<'_, '_, R> {
     /// Makes a round. Returns `true` if it is the last one.
     fn ends_with_next(&mut self, monitor: &mut Monitor<'_>) -> Result<bool, Error> {
-        let round = self.round(monitor)?;
+        let rough = self.tolerance();
+        let round = self.round(rough, monitor)?;
         let failed = round.status == Status::Stalled;
         let force = match round.status {
             Status::Solved | Status::Stalled => {
@@ -176,11 +178,15 @@ impl<R: Redundant> Rounds<'_, '_, R> {
             _ => self.force.clone(),
         };
         let result = (self.springs.displacements(&force), &force[..]);
-        let found = measured(&self.contact, round, result, self.settings);
+        let found = measured(&self.contact, (round, rough), result, self.settings);
         let eta = found.certificate.eta;
-        if failed && eta >= self.last && !self.springs.are_softest() {
-            self.springs.change(true, monitor);
-            return Ok(false);
+        if failed && eta >= self.last {
+            let ends = self.springs.are_softest();
+            match ends {
+                true => _ = self.keep(found, false),
+                false => self.springs.change(true, monitor),
+            }
+            return Ok(ends);
         }
         let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
         self.changes = [self.changes[1], norm_inf(&change)];
@@ -201,11 +207,15 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
     }
 
-    /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
-    fn round(&mut self, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    /// The tolerance of the next round. The springs leave the first rounds fewer digits than the problem asks for, and later
+    /// ones mend it.
+    fn tolerance(&self) -> f64 {
         let rough = ROUGH * self.last.min(self.springs.compliance());
-        // The springs leave the first rounds fewer digits than that, and later ones mend it.
-        let tolerance = rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE);
+        rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE)
+    }
+
+    /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
+    fn round(&mut self, tolerance: f64, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
         let method = match self.settings.method {
             Method::Auto if !self.springs.are_softest() => Method::Newton,
             method => method,

@@ -7,7 +7,7 @@ use crate::linalg::matrix::Matrix;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
-use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness};
+use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness, wanted};
 
 /// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
 /// and their `load`.
@@ -54,10 +54,14 @@ fn stop(status: Status) -> Option<Stop> {
     }
 }
 
-/// The result of a round as one of the problem itself, of displacements `d` and forces.
+/// Why rounds that have solutions end without one of the problem.
+const UNSETTLED: &str =
+    "no solution was found: the pairs depend on each other, and their forces do not settle";
+
+/// The result of a round, solved to a `rough` tolerance, as one of the problem itself, of displacements `d` and forces.
 pub fn measured<R: Relation>(
     contact: &Contact<'_, R>,
-    round: Solution,
+    (round, rough): (Solution, f64),
     (d, force): (Vec<f64>, &[f64]),
     settings: &Settings,
 ) -> Solution {
@@ -66,9 +70,15 @@ pub fn measured<R: Relation>(
         Status::Solved | Status::Stalled if certificate.holds(settings.tolerance) => {
             (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta).into())
         }
-        Status::Solved => (Status::Stalled, round.message.clone()),
+        Status::Solved => {
+            (Status::Stalled, format!("{UNSETTLED} (eta is {:.1e})", certificate.eta).into())
+        }
+        Status::Stalled => {
+            let of_round = wanted(&round.certificate, rough);
+            let of_problem = wanted(&certificate, settings.tolerance);
+            (Status::Stalled, round.message.marked().replace(&of_round, &of_problem).into())
+        }
         other => match stop(other) {
-            // The round has another tolerance, and another error.
             Some(stop) => {
                 let (status, sentence) = Ending::Stopped(stop).status(settings, &certificate);
                 (status, sentence.into())

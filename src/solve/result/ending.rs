@@ -48,14 +48,18 @@ impl From<Error> for Ending {
     }
 }
 
+/// The part of a sentence that tells an error beside the tolerance that it misses.
+pub fn wanted(certificate: &Certificate, tolerance: f64) -> String {
+    format!("eta is {:.1e}, wanted {tolerance:.1e}", certificate.eta)
+}
+
 impl Ending {
     /// Status and sentence of a run with this certificate; whether a motion proves something is not asked.
     pub fn status(&self, settings: &Settings, certificate: &Certificate) -> (Status, String) {
-        let (eta, tolerance) = (certificate.eta, settings.tolerance);
-        if certificate.holds(tolerance) {
-            return (Status::Solved, format!("solved: eta is {eta:.1e}"));
+        if certificate.holds(settings.tolerance) {
+            return (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta));
         }
-        let wanted = format!("eta is {eta:.1e}, wanted {tolerance:.1e}");
+        let wanted = wanted(certificate, settings.tolerance);
         match self {
             Ending::Stopped(stop) => stop.status(settings, &wanted),
             other => (Status::Stalled, format!("{}; {wanted}", other.reason(certificate))),

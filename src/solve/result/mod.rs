@@ -12,7 +12,7 @@ pub use call::Call;
 pub use candidate::Candidate;
 pub use certified::certified;
 pub use effort::Effort;
-pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM};
+pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM, wanted};
 pub use memory::{check_limit, memory, memory_flexibility, memory_of_flexibility};
 pub use solution::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Solve, Status,
