@@ -10,3 +10,4 @@ mod cancelled;
 mod closed_forms;
 mod dependent_rows;
 mod sparse;
+mod walls;
