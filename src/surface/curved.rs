@@ -4,7 +4,7 @@
 use super::bilinear::Bilinear;
 use super::clip::Point;
 use super::face::Face;
-use super::shape::{FaceKind, Local};
+use super::shape::{FaceKind, Local, MOST_NODES};
 use crate::linalg::vector3::Vector3;
 
 /// Steps of Newton's method to local coordinates. It converges by squares from the face that the corners span; the rest
@@ -79,19 +79,37 @@ impl Curved {
         curved
     }
 
-    /// Compares derivatives at the corners with those in the middle.
+    /// Compares derivatives at the corners with those in the middle: of a triangle along the edges from each corner, so that it does
+    /// not matter at which its list of nodes begins.
     fn measure(&mut self, kind: FaceKind) {
-        let [_, a, b] = self.at(kind.centre());
-        let area = a.cross(&b).z;
-        for &corner in &kind.places()[..kind.corners()] {
-            let [_, c, d] = self.at(corner);
-            let (e, f) = (c - a, d - b);
-            let steps = [e.cross(&b).z, a.cross(&e).z, f.cross(&b).z, a.cross(&f).z];
-            let [es, et, fs, ft] = steps.map(|step| (step / area).abs());
-            self.change = self.change.max(es + fs).max(et + ft);
+        let mut at_centre = self.slopes(kind.centre());
+        let mut slopes = [at_centre; MOST_NODES];
+        let at_corners = &mut slopes[..kind.corners()];
+        for (slopes, corner) in at_corners.iter_mut().zip(kind.places()) {
+            *slopes = self.slopes(*corner);
+            let [c, d] = *slopes;
             let normal = c.cross(&d);
             self.lean = self.lean.max(normal.x.hypot(normal.y) / normal.z.abs());
         }
+        let from_next_corner = |[a, b]: [Vector3; 2]| [b - a, -a];
+        for _ in 0..if kind.is_triangle() { kind.corners() } else { 1 } {
+            let [a, b] = at_centre;
+            let area = a.cross(&b).z;
+            for [c, d] in at_corners.iter_mut() {
+                let (e, f) = (*c - a, *d - b);
+                let steps = [e.cross(&b).z, a.cross(&e).z, f.cross(&b).z, a.cross(&f).z];
+                let [es, et, fs, ft] = steps.map(|step| (step / area).abs());
+                self.change = self.change.max(es + fs).max(et + ft);
+                [*c, *d] = from_next_corner([*c, *d]);
+            }
+            at_centre = from_next_corner(at_centre);
+        }
+    }
+
+    /// Derivatives by the local coordinates.
+    fn slopes(&self, at: Local) -> [Vector3; 2] {
+        let [_, a, b] = self.at(at);
+        [a, b]
     }
 
     /// Local coordinates of a point of the plane, from those on the face that the corners span; `None` if there are none.

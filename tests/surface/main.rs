@@ -10,6 +10,7 @@ mod adjust;
 mod bodies;
 mod both_ways;
 mod choices;
+mod corners;
 mod fields;
 mod geometry;
 mod hertz;
