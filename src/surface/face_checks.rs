@@ -90,7 +90,10 @@ impl Side<'_> {
         let middle = face.outward(face.kind.centre());
         // Written so that zero and NaN are refused.
         if !(middle.norm() > least) {
-            return Err(self.refuse(at, "has no area: its nodes coincide or stand in one line"));
+            let has_order = !face.kind.is_line() && !face.kind.is_triangle();
+            let order = if has_order { ", or they are not in their order around it" } else { "" };
+            let what = format!("has no area: its nodes coincide or stand in one line{order}");
+            return Err(self.refuse(at, &what));
         }
         for (i, &place) in face.kind.places().iter().enumerate() {
             let normal = face.outward(place);

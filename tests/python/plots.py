@@ -52,6 +52,34 @@ class Plots(unittest.TestCase):
         self.assertEqual(states, len(x))
         self.save(axes, "result_2d")
 
+    def test_curves_end_where_a_part_of_the_surface_does(self):
+        at = np.array([[0.0, 0], [1, 0], [6, 0], [7, 0]])
+        contact = signorini.pair_obstacle(at, [[0, 1], [2, 3]], signorini.Plane([0, 0], [0, 1]))
+        F = -np.column_stack([np.arange(1.0, 5), np.zeros(4)])
+        result = signorini.Result(0 * F, F, np.full(4, signorini.State.STICK), 0, "", *[None] * 3)._replace(contact=contact)
+        axes = result.plot()
+        x, pressure = axes.lines[0].get_data()
+        np.testing.assert_array_equal(np.isnan(x), [False, False, True, False, False])
+        np.testing.assert_array_equal(np.isnan(pressure), np.isnan(x))
+        matplotlib.pyplot.close(axes.figure)
+
+    def test_two_results_on_the_same_axes_are_both_seen(self):
+        F = np.tile([-1.0, 0, 0], (2, 1))
+        result = signorini.Result(0 * F, F, np.full(2, signorini.State.STICK), 0, "", *[None] * 3)
+        at = np.array([[0.0, 0, 0], [1, 1, 0]])
+        axes = result.plot(at=at)
+        result.plot(axes, at=at + 5)
+        for low, high in (axes.get_xlim(), axes.get_ylim()):
+            self.assertLessEqual(low, 0)
+            self.assertGreaterEqual(high, 6)
+        matplotlib.pyplot.close(axes.figure)
+        flat = matplotlib.pyplot.figure().add_subplot()
+        with self.assertRaisesRegex(ValueError, 'make them by add_subplot\\(projection="3d"\\)'):
+            result.plot(flat, at=at)
+        matplotlib.pyplot.close(flat.figure)
+        with self.assertRaisesRegex(ValueError, "has no pairs"):
+            result._replace(d=F[:0], F=F[:0], state=result.state[:0]).plot()
+
     def test_in_3d_on_the_faces(self):
         blocks = brick_mesh.two_blocks()
         contact = signorini.pair_surfaces(blocks.at, blocks.slave, blocks.master)
