@@ -231,6 +231,12 @@ impl Relation for DependentRows<'_> {
         });
         sum
     }
+
+    /// Forces that balance each other may be of any size, and would hide what is left of all others. `Cᵀ F` is the norm of the
+    /// forces `Zᵀ Cᵀ F`, which move what `F` moves.
+    fn size_of_force(&self, force: &[f64]) -> f64 {
+        norm(force).min(norm(&self.dependence.forces(force)))
+    }
 }
 
 impl DependentRows<'_> {

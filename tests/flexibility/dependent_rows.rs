@@ -126,6 +126,29 @@ fn a_wedge_is_solved_or_said_to_be_one() {
     assert_eq!((lifted, wedged), (12, 4));
 }
 
+/// The groove where friction all but holds the node, at angles a little above `tan a = mu`, and without friction as good as two
+/// planes that face each other: the forces are large and right. They follow from the small part of the resultant that is left, so
+/// that the tolerance of 1e-10 is one of 1e-10 times the forces over the load of the springs.
+#[test]
+fn a_groove_near_its_limit_is_solved() {
+    let (h, k) = (0.1, 2.0);
+    for mu in [0.0_f64, 0.05, 0.3, 1.0] {
+        for beyond in [1e-2, 1e-3, 1e-4] {
+            let (sin, cos) = (mu.atan() + beyond).sin_cos();
+            let host = node_on_planes(&[[cos, -sin], [-cos, -sin]]);
+            let solution = checked(&host, &[0.0; 2], &[-h; 2], mu);
+            let context = format!("mu {mu}, {beyond}: {}", solution.message);
+            assert_eq!(solution.status, Status::Solved, "{context}");
+            let normal = k * h / sin / (2.0 * (sin - mu * cos));
+            let allowed = 1e-10 * normal / (k * h / sin);
+            for pair in 0..2 {
+                let error = (solution.certificate.force[2 * pair] + normal).abs() / normal;
+                assert!(error <= allowed.max(1e-10), "{context}: {error:e}");
+            }
+        }
+    }
+}
+
 /// Pressed down by 1 into a groove that it just touches: it rests, whatever the friction, and the walls carry the load.
 #[test]
 fn a_node_pressed_into_a_groove_rests() {
@@ -138,6 +161,27 @@ fn a_node_pressed_into_a_groove_rests() {
             assert_eq!(solution.status, Status::Solved, "{context}");
             // The tolerance is 1e-12 of forces of at most 3 on springs of 2.
             assert!(largest(&solution.d) < 1e-10, "{context}: {:?}", solution.d);
+        }
+    }
+}
+
+/// Walls closer than the body, with a rough tolerance: the forces, which balance each other, grow round by round, and what is left
+/// does not count beside them.
+#[test]
+fn contradicting_gaps_are_not_solved_roughly() {
+    let host = node_on_planes(&[[1.0, 0.0], [-1.0, 0.0]]);
+    let model = host.model().unwrap();
+    for tolerance in [1e-8, 1e-6, 1e-4, 1e-3] {
+        for mu in [0.0, 0.3] {
+            let law = FrictionLaw::Coulomb(&[mu; 2]);
+            let (load, gap) = (&[0.3, 0.2], &[-0.01; 2]);
+            let case = LoadCase { load, prescribed: None, gap, law, reference_slip: None };
+            let settings = Settings { tolerance, ..Settings::default() };
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            let context = format!("{tolerance:e}, mu {mu}: {}", solution.message);
+            assert_eq!(solution.status, Status::Stalled, "{context}");
+            assert!(context.contains("the gaps of pairs 0, 1 contradict each other"), "{context}");
         }
     }
 }

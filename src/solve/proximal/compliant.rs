@@ -1,17 +1,11 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
-use super::rounds::{COMPLIANCE, InSeries};
+use super::rounds::{COMPLIANCE, InSeries, RANGE, changed};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::watched::BLOCK;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
-
-/// Least and largest `e`.
-const RANGE: [f64; 2] = [1e-10, 1e-1];
-
-/// By which `e` is changed.
-const FACTOR: f64 = 0.1;
 
 /// Bodies of a flexibility, with the springs of some rounds.
 pub struct Springs<'p> {
@@ -57,8 +51,7 @@ impl InSeries for Springs<'_> {
     }
 
     fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
-        let by = if softer { 1.0 / FACTOR } else { FACTOR };
-        let compliance = (by * self.compliance).clamp(RANGE[0], RANGE[1]);
+        let compliance = changed(self.compliance, softer, RANGE[1]);
         // Where there is no time for others these stay.
         if compliance != self.compliance
             && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, monitor)

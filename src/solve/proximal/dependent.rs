@@ -10,7 +10,7 @@
 //! With it the variables can be condensed, and the others solve for `d`, in [`super::rounds`]. What proves that the
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
-use super::rounds::{COMPLIANCE, InSeries, rounds, solve as solve_by_rounds};
+use super::rounds::{COMPLIANCE, InSeries, changed, rounds, solve as solve_by_rounds};
 use super::step::ended;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
@@ -30,7 +30,7 @@ pub fn solve(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let relation = problem.relation();
-    let condensed = &match condensed(relation, monitor)? {
+    let first = match condensed(relation, COMPLIANCE, monitor)? {
         Ok(condensed) => condensed,
         Err(stop) => {
             let d = relation.relative(&begun(relation, start));
@@ -42,7 +42,14 @@ pub fn solve(
     let (all, with_start) = (&|pair| pair, (settings, start));
     let (found, _) = solve_by_rounds(problem, all, with_start, |problem, settings, start| {
         let variables = begun(relation, start);
-        let mut bodies = Bodies { relation, condensed, variables, right: Vec::new() };
+        let mut bodies = Bodies {
+            relation,
+            first: &first,
+            compliance: COMPLIANCE,
+            changed: None,
+            variables,
+            right: Vec::new(),
+        };
         let force = vec![0.0; relation.size()];
         rounds(problem, &mut bodies, force, (settings, solve), monitor)
     })?;
@@ -52,15 +59,24 @@ pub fn solve(
 /// The bodies between the pairs, with springs.
 struct Bodies<'p> {
     relation: &'p DependentRows<'p>,
-    condensed: &'p SparseSchur,
+    first: &'p SparseSchur,
+    compliance: f64,
+    /// With other springs than the first ones.
+    changed: Option<SparseSchur>,
     variables: Vec<f64>,
     /// The load of the round on the variables, and on the displacements beyond the springs.
     right: Vec<f64>,
 }
 
+impl Bodies<'_> {
+    fn condensed(&self) -> &SparseSchur {
+        self.changed.as_ref().unwrap_or(self.first)
+    }
+}
+
 impl InSeries for Bodies<'_> {
     fn compliance(&self) -> f64 {
-        COMPLIANCE
+        self.compliance
     }
 
     fn displacements(&self, _: &[f64]) -> Vec<f64> {
@@ -68,18 +84,32 @@ impl InSeries for Bodies<'_> {
     }
 
     fn stiffness(&self) -> &[f64] {
-        &self.condensed.schur
+        &self.condensed().schur
     }
 
     fn load(&mut self, force: &[f64]) -> Vec<f64> {
         self.right = self.relation.unbalanced(&self.variables, force);
         self.right.extend(force.iter().map(|force| -force));
-        unended(|goes_on| self.condensed.condense(&self.right, goes_on))
+        unended(|goes_on| self.condensed().condense(&self.right, goes_on))
     }
 
     fn advance(&mut self, step: &[f64]) {
-        let step = unended(|goes_on| self.condensed.recover(&self.right, step, goes_on));
+        let step = unended(|goes_on| self.condensed().recover(&self.right, step, goes_on));
         self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
+    }
+
+    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
+        let compliance = changed(self.compliance, softer, COMPLIANCE);
+        // Where there is no time for others these stay.
+        if compliance != self.compliance
+            && let Ok(Ok(condensed)) = condensed(self.relation, compliance, monitor)
+        {
+            (self.compliance, self.changed) = (compliance, Some(condensed));
+        }
+    }
+
+    fn are_softest(&self) -> bool {
+        self.compliance >= COMPLIANCE
     }
 }
 
@@ -87,6 +117,7 @@ impl InSeries for Bodies<'_> {
 /// was stopped.
 fn condensed(
     relation: &DependentRows<'_>,
+    compliance: f64,
     monitor: &mut Monitor<'_>,
 ) -> Result<Result<SparseSchur, Stop>, Error> {
     let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
@@ -99,7 +130,7 @@ fn condensed(
     }
     let rows = transposed(&dependence.to_relative).map_err(memory)?;
     for i in 0..size {
-        let spring = relation.units[i] / COMPLIANCE;
+        let spring = relation.units[i] / compliance;
         let (variables, coefficients) = column(&rows, i);
         for (&j, c) in variables.iter().zip(coefficients) {
             entries.push((kept + i, j, -spring * c));

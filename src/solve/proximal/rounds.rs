@@ -12,7 +12,7 @@
 //! default method has all its means: a round that it leaves without a solution, and no nearer to one, ends the rounds, and
 //! its sentence is that of the problem.
 //!
-//! Where the forces grow without end there is no solution near: they balance each other and wedge the bodies,
+//! Where forces grow with the least compliant springs too there is no solution near: they balance each other and wedge the bodies,
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
 //! do work on the gaps.
 
@@ -34,13 +34,26 @@ const ROUNDS: usize = 100;
 /// compliant pattern of forces over `e`; the stiffness with springs loses as many digits as `e` has.
 pub const COMPLIANCE: f64 = 1e-4;
 
+/// Least and largest `e`. The least leaves six digits of the stiffness with springs.
+pub const RANGE: [f64; 2] = [1e-10, 1e-1];
+
+/// By which `e` is changed.
+const FACTOR: f64 = 0.1;
+
+/// The next `e`, softer up to `most` or less compliant.
+pub fn changed(compliance: f64, softer: bool, most: f64) -> f64 {
+    let by = if softer { 1.0 / FACTOR } else { FACTOR };
+    (by * compliance).clamp(RANGE[0], most)
+}
+
 /// Part of the error before a round that is enough for the round.
 const ROUGH: f64 = 1e-3;
 
 /// Part of the error that is left where rounds are slow, so that less compliant springs are tried.
 const SLOW: f64 = 0.1;
 
-/// So many rounds that do not halve the least error show that rounding is reached.
+/// So many rounds that do not halve the least error get nowhere: the pattern that is left has hardly any flexibility, or
+/// rounding is reached.
 const IDLE_ROUNDS: usize = 12;
 
 /// Most rounds after the first solution, until the forces settle: `eta` feels an error in a pattern of forces by its
@@ -66,12 +79,10 @@ pub trait InSeries {
     fn advance(&mut self, _: &[f64]) {}
 
     /// More compliant springs if they are to be softer, otherwise less compliant ones, if there are any.
-    fn change(&mut self, _softer: bool, _: &mut Monitor<'_>) {}
+    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>);
 
     /// True if there are no softer ones, or none that a round is left to.
-    fn are_softest(&self) -> bool {
-        true
-    }
+    fn are_softest(&self) -> bool;
 }
 
 /// The result of the rounds.
@@ -155,7 +166,7 @@ struct Rounds<'p, 's, R: Redundant> {
     changes: [f64; 2],
     growth: Growth,
     best: Option<Solution>,
-    /// `eta` of the round before, and the least of all.
+    /// `eta` of the round before, and the least of those that halved the one before.
     last: f64,
     least: f64,
     /// Rounds since `least` was halved.
@@ -183,7 +194,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         if failed && eta >= self.last {
             let ends = self.springs.are_softest();
             match ends {
-                true => _ = self.keep(found, false),
+                true => _ = self.keep(found, false, false),
                 false => self.springs.change(true, monitor),
             }
             return Ok(ends);
@@ -192,18 +203,18 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         self.changes = [self.changes[1], norm_inf(&change)];
         self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
         self.force = force;
-        self.idle = if 2.0 * eta < self.least { 0 } else { self.idle + 1 };
-        self.least = self.least.min(eta);
+        let halves = 2.0 * eta < self.least;
+        (self.least, self.idle) = if halves { (eta, 0) } else { (self.least, self.idle + 1) };
         let is_slow = match found.status {
-            Status::Solved => self.changes[1] > SLOW * self.changes[0],
-            _ => eta > SLOW * self.last && !self.growth.is_steady(),
+            Status::Solved => self.changes[1] > SLOW * self.changes[0] && !self.growth.is_steady(),
+            _ => eta > SLOW * self.last,
         };
         let settled = settles(self.changes, self.settings.tolerance * norm_inf(&self.force));
         if !failed && is_slow && !settled {
             self.springs.change(false, monitor);
         }
         self.last = eta;
-        let ends = self.keep(found, settled);
+        let ends = self.keep(found, halves, settled);
         Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
     }
 
@@ -227,16 +238,16 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         step(self.contact.problem(), system, &d, (&settings, self.solve), monitor)
     }
 
-    /// Keeps a result if it is the best, of solutions the last one until the forces are `settled`. Returns `true` if
-    /// there will be no better one.
-    fn keep(&mut self, found: Solution, settled: bool) -> bool {
+    /// Keeps a result if it `halves` the least error of those that are no solutions, and of solutions the last one until the
+    /// forces are `settled`: what grows for little gain would hide other forces. Returns `true` if there will be no better one.
+    fn keep(&mut self, found: Solution, halves: bool, settled: bool) -> bool {
         let stops = !matches!(found.status, Status::Solved | Status::Stalled);
         let is_solved = |result: &Solution| result.status == Status::Solved;
         let was_solved = self.best.as_ref().is_some_and(is_solved);
         let is_better = match &self.best {
             Some(best) if is_solved(&found) == was_solved => {
-                let unsettled = was_solved && !settled;
-                stops || unsettled || found.certificate.eta < best.certificate.eta
+                let of_solutions = !settled || found.certificate.eta < best.certificate.eta;
+                stops || if was_solved { of_solutions } else { halves }
             }
             best => best.is_none() || !was_solved,
         };

@@ -54,9 +54,8 @@ fn stop(status: Status) -> Option<Stop> {
     }
 }
 
-/// Why rounds that have solutions end without one of the problem.
-const UNSETTLED: &str =
-    "no solution was found: the pairs depend on each other, and their forces do not settle";
+/// Why rounds with springs, each of which is solved, end without a solution of the problem.
+const UNSETTLED: &str = "no solution was found: forces that hardly move anything do not settle";
 
 /// The result of a round, solved to a `rough` tolerance, as one of the problem itself, of displacements `d` and forces.
 pub fn measured<R: Relation>(
