@@ -45,7 +45,7 @@ pub struct Certificate {
 impl Certificate {
     /// Returns `true` if the candidate may be called a solution.
     pub fn holds(&self, tolerance: f64) -> bool {
-        self.eta <= tolerance && !self.runs_away() && !self.underflows
+        self.eta <= tolerance && self.doubt().is_none()
     }
 
     /// Copies the certificate with the rounding of its evaluation in `eta`, as far as a tolerance that `eta` meets. An
@@ -64,6 +64,17 @@ impl Certificate {
     /// Returns `true` if the displacements are so large that rounding hides the forces.
     pub fn runs_away(&self) -> bool {
         self.hidden > ROUNDING_LIMIT && !self.is_resisted
+    }
+
+    /// Why a candidate is not certified, whatever its `eta`.
+    pub(crate) fn doubt(&self) -> Option<&'static str> {
+        if self.runs_away() {
+            Some("the displacements are so large that rounding hides the forces")
+        } else if self.underflows {
+            Some("the forces are so small that products have lost their digits")
+        } else {
+            None
+        }
     }
 
     /// Number of pairs in a state.

@@ -81,7 +81,10 @@ fn judged(certificate: &Certificate, tolerance: f64) -> i32 {
         return SIGNORINI_STATUS_SOLVED;
     }
     let eta = certificate.eta;
-    remember(format!("d is not a solution: eta is {eta:.1e}, wanted {tolerance:.1e}"));
+    remember(match certificate.doubt() {
+        Some(doubt) => format!("d is not certified: {doubt} (eta is {eta:.1e})"),
+        None => format!("d is not a solution: eta is {eta:.1e}, wanted {tolerance:.1e}"),
+    });
     SIGNORINI_STATUS_NOT_A_SOLUTION
 }
 

@@ -179,11 +179,11 @@ fn solve_with_questions(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<So
         rigid::describe(contact, solution, balance, solve, monitor)?;
     }
     uniqueness::by_orientation(contact, solution, monitor);
-    if settings.search == Search::Others && !monitor.is_late() {
-        uniqueness::examine(call, solution, monitor)?;
-    }
     if settings.proof {
         uniqueness::prove(call, solution, monitor);
+    }
+    if settings.search == Search::Others && !monitor.is_late() {
+        uniqueness::examine(call, solution, monitor)?;
     }
     plan::add_remarks(call, solution, monitor);
     found

@@ -68,10 +68,10 @@ impl Ending {
 
     /// Why there is no solution at this end.
     fn reason(&self, certificate: &Certificate) -> &'static str {
+        if let Some(doubt) = certificate.doubt() {
+            return doubt;
+        }
         match self {
-            _ if certificate.runs_away() => {
-                "the displacements are so large that rounding hides the forces"
-            }
             Ending::Recession(_) => {
                 "the method ended on a motion that does not prove that no equilibrium exists"
             }
