@@ -68,12 +68,10 @@ impl Certificate {
 
     /// Why a candidate is not certified, whatever its `eta`.
     pub(crate) fn doubt(&self) -> Option<&'static str> {
-        if self.runs_away() {
-            Some("the displacements are so large that rounding hides the forces")
-        } else if self.underflows {
-            Some("the forces are so small that products have lost their digits")
-        } else {
-            None
+        match (self.runs_away(), self.underflows) {
+            (true, _) => Some("the displacements are so large that rounding hides the forces"),
+            (_, true) => Some("the forces are so small that products have lost their digits"),
+            _ => None,
         }
     }
 
