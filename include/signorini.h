@@ -594,7 +594,7 @@ int64_t signorini_solve_memory(int64_t n);
  * double taken as an exact number.
  */
 #define SIGNORINI_PROOF_PROVED 1
-/** Not proved: a pair at the boundary of two states, a badly conditioned K, or no time. */
+/** Not proved: a pair at the boundary of two states, K badly conditioned, or no time. */
 #define SIGNORINI_PROOF_NOT_PROVED 2
 
 /* Why the first method was abandoned. */

@@ -30,7 +30,7 @@ pub const SIGNORINI_PROOF_NOT_ASKED: i32 = 0;
 /// Proved: the problem (of a model: the condensed one) has a solution with these states, each
 /// double taken as an exact number.
 pub const SIGNORINI_PROOF_PROVED: i32 = 1;
-/// Not proved: a pair at the boundary of two states, a badly conditioned K, or no time.
+/// Not proved: a pair at the boundary of two states, K badly conditioned, or no time.
 pub const SIGNORINI_PROOF_NOT_PROVED: i32 = 2;
 
 /// The first method succeeded.
