@@ -9,6 +9,7 @@
 //! other. `Z` takes the variables from the displacements: `z = Z d`, `Z C = 1`, `Z o = 0`, and its rows are
 //! orthonormal. `o` comes from values of fixed degrees of freedom.
 
+use super::free_block::FreeBlock;
 use super::relation::{Redundant, Relation};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{
@@ -16,6 +17,7 @@ use crate::linalg::sparse_matrix::{
 };
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{largest_of, norm, norm_inf};
+use crate::linalg::watched::GoesOn;
 
 /// Why rows of surfaces nearly depend on each other, and what to do.
 pub(crate) const NEARLY_DEPENDENT: &str = "if two surfaces are each other's slaves, let one side be the slave; if slaves along a \
@@ -148,6 +150,15 @@ impl<'a> DependentRows<'a> {
         }
     }
 
+    /// A basis of the displacements that `K` does not resist; `None` if rounding leaves `K` energies below zero, or where
+    /// `goes_on` says no.
+    pub(crate) fn free_motions(&self, goes_on: GoesOn<'_>) -> Option<Vec<Vec<f64>>> {
+        let scale = units_of(&self.stiffness).map(|unit| unit.sqrt().recip()).collect();
+        let all = (0..self.stiffness.size()).collect();
+        let block = FreeBlock::new(self.stiffness, all, scale, goes_on)?;
+        Some(block.null_vectors().map(|motion| self.dependence.relative(&motion)).collect())
+    }
+
     /// `C z + o`.
     pub(crate) fn relative(&self, variables: &[f64]) -> Vec<f64> {
         let mut d = self.dependence.relative(variables);
@@ -165,15 +176,21 @@ impl<'a> DependentRows<'a> {
     }
 }
 
-/// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
-fn units(dependence: &Dependence, stiffness: &Matrix<'_>) -> Vec<f64> {
+/// The diagonal of `K`, positive: where nothing resists a variable, its largest entry.
+fn units_of(stiffness: &Matrix<'_>) -> impl Iterator<Item = f64> {
     let otherwise = match stiffness.largest_diagonal() {
         largest if largest > 0.0 => largest,
         _ => 1.0,
     };
+    (0..stiffness.size()).map(move |j| stiffness.unit(j, 1, otherwise))
+}
+
+/// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
+fn units(dependence: &Dependence, stiffness: &Matrix<'_>) -> Vec<f64> {
+    let largest = units_of(stiffness).fold(0.0, f64::max);
+    let otherwise = if largest > 0.0 { largest } else { 1.0 };
     let mut compliance = vec![0.0; dependence.to_relative.nrows()];
-    for j in 0..stiffness.size() {
-        let unit = stiffness.unit(j, 1, otherwise);
+    for (j, unit) in units_of(stiffness).enumerate() {
         let (rows, values) = column(&dependence.to_relative, j);
         rows.iter().zip(values).for_each(|(&i, c)| compliance[i] += c * c / unit);
     }

@@ -27,8 +27,17 @@ impl<'p> FreeBlock<'p> {
         rows: Vec<usize>,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let matrix = problem.stiffness();
-        let scale: Vec<f64> = rows.iter().map(|&i| problem.unit(i).sqrt().recip()).collect();
+        let scale = rows.iter().map(|&i| problem.unit(i).sqrt().recip()).collect();
+        Self::new(problem.stiffness(), rows, scale, goes_on)
+    }
+
+    /// Factorises the block of `rows` of a matrix, each times its `scale`, the root of a compliance; `None` as above.
+    pub(super) fn new(
+        matrix: Matrix<'p>,
+        rows: Vec<usize>,
+        scale: Vec<f64>,
+        goes_on: GoesOn<'_>,
+    ) -> Option<Self> {
         let entry = |i: usize, j: usize| scale[i] * matrix.at(rows[i], rows[j]) * scale[j];
         let factor = PivotedCholesky::within(rows.len(), NEGLIGIBLE, entry, goes_on)?;
         Some(FreeBlock { matrix, rows, scale, factor })

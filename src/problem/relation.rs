@@ -90,6 +90,8 @@ pub struct Stiffness<'a> {
     pub(super) largest: f64,
     /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
     pub(super) rounding: f64,
+    /// A basis of the motions that nothing resists, where it is known better than the rounding of `K` tells; `None`: not.
+    pub(super) free_motions: Option<&'a [Vec<f64>]>,
     /// The factors that earlier problems with this matrix have left.
     pub(super) remembered: Option<&'a Remembered>,
 }
@@ -112,8 +114,20 @@ impl<'a> Stiffness<'a> {
             dim,
             largest: matrix.largest_diagonal(),
             rounding: f64::EPSILON * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
+            free_motions: None,
             remembered: None,
         }
+    }
+
+    /// Tells the relation a basis of the motions that nothing resists; `None`: it is not known.
+    pub(crate) fn with_free_motions(mut self, motions: Option<&'a [Vec<f64>]>) -> Self {
+        self.free_motions = motions;
+        self
+    }
+
+    /// A basis of the motions that nothing resists, if it is known from elsewhere.
+    pub(crate) fn free_motions(&self) -> Option<&'a [Vec<f64>]> {
+        self.free_motions
     }
 
     /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the

@@ -41,10 +41,22 @@ pub const KINDS: [Kind; 6] = [
 pub struct ContactAlone {
     /// With the matrix as the elimination leaves it, made symmetric.
     pub raw: Case,
+    /// The bodies before they are condensed.
+    pub whole: Whole,
     /// The relative rigid motions at the pairs, orthonormal.
     pub motions: Vec<Vec<f64>>,
     /// The work of the loads on each.
     pub work: Vec<f64>,
+}
+
+/// Bodies as a host has them: all entries of their stiffness and their loads, with a node of each pair and one of the
+/// body below.
+pub struct Whole {
+    pub stiffness: Vec<f64>,
+    pub load: Vec<f64>,
+    pub nodes: Vec<(usize, Option<usize>)>,
+    /// Axes of each pair, the normal first.
+    pub frames: Vec<Vec<Vector>>,
 }
 
 /// Edges of the polygons in and around the circle of friction.
@@ -87,11 +99,11 @@ impl ContactAlone {
             .collect();
         let mu = if rng.u8(..6) == 0 { 0.0 } else { uniform(rng, 0.05, 1.5) };
         let frames: Vec<Vec<Vector>> = pairs.iter().map(|pair| frame(dim, pair.normal)).collect();
-        let (k, f) = condensed(rng, dim, &bodies, (&pairs, &frames));
+        let ((k, f), whole) = condensed(rng, dim, &bodies, (&pairs, &frames));
         let law = Law::Coulomb(vec![mu; pairs.len()]);
         let raw = Case { dim, pairs: pairs.len(), k, f, gap, law, slip: None };
         let (motions, work) = motions(dim, &bodies, (&pairs, &frames));
-        ContactAlone { raw, motions, work }
+        ContactAlone { raw, whole, motions, work }
     }
 
     /// The problem without rounding on rigid motions: `(1 - N Nᵀ) K (1 - N Nᵀ)`.
@@ -319,7 +331,7 @@ fn condensed(
     dim: usize,
     bodies: &[Body],
     pairs: (&[Pair], &[Vec<Vector>]),
-) -> (Vec<f64>, Vec<f64>) {
+) -> ((Vec<f64>, Vec<f64>), Whole) {
     let starts: Vec<usize> = bodies
         .iter()
         .scan(0, |next, body| {
@@ -359,6 +371,13 @@ fn condensed(
             (0..dim).for_each(|i| b[contact][start + dim * p + i] = body.loads[p][i]);
         }
     }
+    let node = |(body, node): (usize, usize)| starts[body] / dim + node;
+    let whole = Whole {
+        stiffness: a.chunks_exact(n).take(inner).flat_map(|row| row[..inner].to_vec()).collect(),
+        load: b[contact][..inner].to_vec(),
+        nodes: pairs.0.iter().map(|pair| (node(pair.slave), pair.master.map(node))).collect(),
+        frames: pairs.1.to_vec(),
+    };
     for (own, &start) in starts.iter().enumerate() {
         for node in 0..bodies[own].places.len() {
             for c in 0..dim {
@@ -378,7 +397,7 @@ fn condensed(
     eliminate(n, &mut a, &mut b);
     let mut k: Vec<f64> = b[..contact].iter().flat_map(|x| x[inner..].iter().map(|x| -x)).collect();
     symmetric(contact, &mut k);
-    (k, b[contact][inner..].to_vec())
+    ((k, b[contact][inner..].to_vec()), whole)
 }
 
 /// Overwrites right-hand sides with solutions, by Gaussian elimination with partial pivoting.

@@ -5,11 +5,15 @@
 mod bar;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/rows.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod rows;
 
 mod blocks_3d;
 mod contact_alone;
 mod flexible;
 mod floating_3d;
+mod forms;
 mod free_bodies;
 mod half_space;
 mod judged;

@@ -39,6 +39,8 @@ pub fn solve(
             return Ok(ended(&Contact::new(problem), (d, &force), settings, how));
         }
     };
+    // Those of the stiffness with springs, which is ten thousand times as large, would carry its rounding.
+    let free_motions = relation.free_motions(&mut monitor.asking());
     let (all, with_start) = (&|pair| pair, (settings, start));
     let (found, _) = solve_by_rounds(problem, all, with_start, |problem, settings, start| {
         let variables = begun(relation, start);
@@ -47,6 +49,7 @@ pub fn solve(
             first: &first,
             compliance: COMPLIANCE,
             changed: None,
+            free_motions: free_motions.as_deref(),
             variables,
             right: Vec::new(),
         };
@@ -63,6 +66,7 @@ struct Bodies<'p> {
     compliance: f64,
     /// With other springs than the first ones.
     changed: Option<SparseSchur>,
+    free_motions: Option<&'p [Vec<f64>]>,
     variables: Vec<f64>,
     /// The load of the round on the variables, and on the displacements beyond the springs.
     right: Vec<f64>,
@@ -85,6 +89,10 @@ impl InSeries for Bodies<'_> {
 
     fn stiffness(&self) -> &[f64] {
         &self.condensed().schur
+    }
+
+    fn free_motions(&self) -> Option<&[Vec<f64>]> {
+        self.free_motions
     }
 
     fn load(&mut self, force: &[f64]) -> Vec<f64> {

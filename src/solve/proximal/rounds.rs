@@ -20,9 +20,10 @@ use super::growth::{Growth, contradicts, sentence};
 use super::step::{measured, step};
 use crate::error::Error;
 use crate::law::{Contact, without_friction};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
-use crate::problem::{ContactProblem, Redundant};
+use crate::problem::{ContactProblem, Redundant, Stiffness};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::AIM;
 use crate::solve::result::{Solution, Solve, Status};
@@ -71,6 +72,11 @@ pub trait InSeries {
 
     /// The stiffness of bodies and springs, column-major.
     fn stiffness(&self) -> &[f64];
+
+    /// A basis of the motions that nothing resists, where it is known better than the rounding of that stiffness tells.
+    fn free_motions(&self) -> Option<&[Vec<f64>]> {
+        None
+    }
 
     /// The load on them where the springs are stretched to `force`.
     fn load(&mut self, force: &[f64]) -> Vec<f64>;
@@ -234,8 +240,10 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let settings = Settings { tolerance, method, ..self.settings.clone() };
         let d = self.springs.displacements(&self.force);
         let load = self.springs.load(&self.force);
-        let system = (self.springs.stiffness(), &load[..]);
-        step(self.contact.problem(), system, &d, (&settings, self.solve), monitor)
+        let stiffness = Matrix::new(d.len(), self.springs.stiffness(), d.len().max(1));
+        let relation = Stiffness::new(stiffness, &load, self.contact.dim())
+            .with_free_motions(self.springs.free_motions());
+        step(self.contact.problem(), relation, &d, (&settings, self.solve), monitor)
     }
 
     /// Keeps a result if it `halves` the least error of those that are no solutions, and of solutions the last one until the

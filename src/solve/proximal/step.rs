@@ -3,17 +3,15 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::linalg::matrix::Matrix;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness, wanted};
 
-/// Solves for the step from the displacements `d`, with the `stiffness` of bodies and springs, column-major,
-/// and their `load`.
+/// Solves for the step from the displacements `d`, with the stiffness and the load of bodies and springs.
 pub fn step<R: Relation>(
     problem: &ContactProblem<'_, R>,
-    (stiffness, load): (&[f64], &[f64]),
+    relation: Stiffness<'_>,
     d: &[f64],
     (settings, solve): (&Settings, Solve),
     monitor: &mut Monitor<'_>,
@@ -26,7 +24,6 @@ pub fn step<R: Relation>(
         problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
     };
     let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
-    let relation = Stiffness::new(Matrix::new(d.len(), stiffness, d.len().max(1)), load, dim);
     let law = problem.law();
     let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
     solve(&Call::new(&Contact::new(&problem), settings), monitor)

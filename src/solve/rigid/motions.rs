@@ -18,6 +18,10 @@ impl RigidMotions {
     /// The motions without internal force; `None` if there are none, or no time to find them.
     pub fn of(problem: &ContactProblem<'_>, monitor: &mut Monitor<'_>) -> Option<Self> {
         let n = problem.unknowns();
+        if let Some(known) = problem.relation().free_motions() {
+            let motions = Self::spanned(problem, known.iter());
+            return Some(motions).filter(|motions| !motions.basis.is_empty());
+        }
         let block = FreeBlock::of_problem(problem, (0..n).collect(), &mut monitor.asking())?;
         Some(Self::of_block(problem, &block)).filter(|motions| !motions.basis.is_empty())
     }
