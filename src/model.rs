@@ -32,8 +32,8 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_start, solve, solve_dependent,
-    solve_flexibility, solve_matrix_free,
+    CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_limit, check_start, solve,
+    solve_dependent, solve_flexibility, solve_matrix_free,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -181,6 +181,7 @@ impl Model {
             return solve_flexibility(&problem, settings, start, monitor);
         }
         if let Some(bodies) = self.reduction.bodies() {
+            check_limit(self.memory(), settings)?;
             check_start("d", self.dim * self.pairs, start)?;
             let solution = self.on_bodies(bodies, case, |bodies, case| {
                 let mut solution = solve_matrix_free(bodies, case, settings, start, past, monitor)?;
@@ -195,6 +196,7 @@ impl Model {
             return Ok(self.with_motion(solution, &load));
         }
         if let Some(dependence) = self.reduction.dependence() {
+            check_limit(self.memory(), settings)?;
             return self.on_dependent_rows(dependence, (case, load), |problem| {
                 let solution = solve_dependent(problem, settings, start, monitor)?;
                 Ok(self.with_motion(solution, problem.relation().load()))

@@ -70,8 +70,8 @@ pub struct Settings {
     pub search: Search,
     /// `true`: a proof is tried that the solution exists, and where: [`crate::Solution::existence`].
     pub proof: bool,
-    /// Most bytes that the reduction of a sparse matrix may need; 0 means no limit. Where the condensed matrix
-    /// would need more the model is left in full space ([`crate::Model::sparse_within`]).
+    /// Most bytes that a solution, or the reduction of a sparse matrix, may need; 0 means no limit. Where the condensed
+    /// matrix would need more the model is left in full space ([`crate::Model::sparse_within`]).
     pub memory_limit: u64,
     /// `true`: a sparse matrix is left in full space whatever memory it needs.
     pub full_space: bool,

@@ -39,8 +39,8 @@ pub(crate) use operator::{
 };
 pub(crate) use plan::memory_of_ties;
 pub(crate) use proximal::largest_island;
-pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, memory_of_flexibility};
-use result::{Call, Solve, check_limit};
+pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, check_limit, memory_of_flexibility};
+use result::{Call, Solve};
 pub use result::{
     Errors, Escape, Existence, Fallback, Remarks, SecondSolution, Solution, Status, Uniqueness,
     memory, memory_flexibility,

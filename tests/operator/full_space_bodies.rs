@@ -170,6 +170,39 @@ fn the_limit_on_memory_chooses_the_form() {
     }
 }
 
+/// A load case may take as much as the model tells, and is refused before anything is done where the limit is a byte less;
+/// so is one of pairs that depend on each other, which is condensed all the same.
+#[test]
+fn a_limit_on_memory_refuses_load_cases() {
+    let stack = Stack::new([4, 4], [2000.0, 2000.0]);
+    let all = |nodes: &[usize]| nodes.iter().flat_map(|n| [2 * n, 2 * n + 1]).collect::<Vec<_>>();
+    let twice = [stack.upper.row(0), stack.upper.row(0)].concat();
+    let dependent = Pairs::on_obstacle(&twice, [0.0, -1.0]);
+    let lower: Vec<usize> = stack.lower.nodes().collect();
+    let models = [
+        stacked(&stack, &all(&stack.lower.row(0)), &full()),
+        stack.mesh.stiffness().model(&all(&lower), &dependent).expect("a model"),
+    ];
+    assert!(models[0].is_matrix_free() && !models[1].dependent_pairs().is_empty());
+    let load = stack.load(7.0, 0.0);
+    for model in models {
+        let (gap, mu) = (vec![0.0; model.pairs()], vec![0.5; model.pairs()]);
+        let law = FrictionLaw::Coulomb(&mu);
+        let case = LoadCase { load: &load, prescribed: None, gap: &gap, law, reference_slip: None };
+        let limited = |memory_limit| {
+            let settings = Settings { memory_limit, ..Settings::default() };
+            model.solve(&case, &settings, None, &mut Monitor::new(&settings, None))
+        };
+        assert!(limited(model.memory()).is_ok());
+        match limited(model.memory() - 1) {
+            Err(Error::Stopped { limit: Limit::Memory, message }) => {
+                assert!(message.contains("memory_limit allows"), "{message}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
 /// Refused by a sentence: what needs the condensed matrix. Told: the measures of displacements from elsewhere.
 #[test]
 fn what_needs_the_matrix_is_refused() {

@@ -286,6 +286,25 @@ fn blocks_in_the_plane_take_few_products() {
     }
 }
 
+/// A load case is refused before the host is asked for anything, where the limit on memory is a byte below what is told.
+#[test]
+fn a_limit_on_memory_refuses_load_cases() {
+    let (condensed, asked) = (Condensed::plane(8), Asked::none());
+    let model = condensed.operator(condensed.host(true, &asked)).unwrap();
+    asked.reset();
+    let (load, gap) = (&condensed.f[..], &condensed.gap[..]);
+    let law = FrictionLaw::Frictionless;
+    let case = LoadCase { load, prescribed: None, gap, law, reference_slip: None };
+    let limited = |memory_limit| {
+        let settings = Settings { memory_limit, ..Settings::default() };
+        model.solve(&case, &settings, None, &mut Monitor::new(&settings, None))
+    };
+    let refused = limited(model.memory() - 1).err().unwrap().message().to_string();
+    assert!(refused.contains("memory_limit allows"), "{refused}");
+    assert_eq!(asked.products.load(Relaxed), 0);
+    assert!(limited(model.memory()).is_ok());
+}
+
 /// Every third pair tied, with a gap and a slip of its own: products and `W` alone, and solutions with components held,
 /// give what the dense matrix gives.
 #[test]
