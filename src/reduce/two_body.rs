@@ -71,12 +71,16 @@ impl TwoBodyReduction {
         let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
         let (first, second) = if exchanged { (second, first) } else { (first, second) };
-        let scale: Vec<f64> = first
-            .units(dim)
-            .iter()
-            .zip(second.units(dim))
-            .map(|(a, b)| (a + b).sqrt().recip())
-            .collect();
+        let second_units = second.units(dim);
+        let units = first.units(dim).into_iter().zip(second_units).map(|(a, b)| a + b);
+        let scale: Vec<f64> = units.map(|unit| unit.sqrt().recip()).collect();
+        if let Some(i) = scale.iter().position(|&scale| scale == 0.0) {
+            let message = format!(
+                "K_A + K_B: component {} overflows; choose units in which it is smaller",
+                index(i)
+            );
+            return Err(Error::invalid(Argument::Matrix, message));
+        }
         let entry =
             |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
         // A work that is ended tells no error.

@@ -223,6 +223,9 @@ fn wrong_rows_are_named() {
     matrix("row[6], in column 4, is 6", |input| input.row[6] = 6);
     matrix("row[6], in column 4, is -1", |input| input.row[6] = -1);
     matrix("K[0,1] is not in the triangle", |input| input.row[2] = 0);
+    matrix("K[0,0] is 1e308: sums of such entries overflow; choose units", |input| {
+        input.values[0] = 1e308;
+    });
 }
 
 /// One triangle in single precision: the tolerance and the remedies are named. Larger differences

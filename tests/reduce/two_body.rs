@@ -243,6 +243,29 @@ fn proportional_bodies_are_springs_in_a_row() {
     }
 }
 
+/// Bodies of 1e308 each have a sum that is no double, of which nothing else must be said. Half of that is solved: two springs
+/// in a row, pressed by `1e300`, give `1e300 / 2.5e307`.
+#[test]
+fn a_stiffness_beyond_doubles_is_named() {
+    let body = |k: f64| [k, 0.0, 0.0, k];
+    let refused = Model::two_body(2, 1, (&body(1e308), 2), (&body(1e308), 2)).err().unwrap();
+    let message = refused.message().to_string();
+    assert!(message.contains("K_A + K_B: component 0 overflows; choose units"), "{message}");
+    let model = Model::two_body(2, 1, (&body(5e307), 2), (&body(5e307), 2)).unwrap();
+    let case = LoadCase {
+        load: &[1e300, 0.0, 1e300, 0.0],
+        prescribed: None,
+        gap: &[f64::INFINITY],
+        law: FrictionLaw::Frictionless,
+        reference_slip: None,
+    };
+    let settings = Settings::default();
+    let solution = model.solve(&case, &settings, None, &mut Monitor::new(&settings, None)).unwrap();
+    assert_eq!(solution.status, Status::Solved, "{}", solution.message);
+    // Each operation rounds once, and certified to 1e-10.
+    assert!((solution.d[0] / (1e300 / 2.5e307) - 1.0).abs() <= 1e-10, "{:e}", solution.d[0]);
+}
+
 /// A body on one that is `1e8` times the stiffer is the body on an obstacle, up to `1e-8` times
 /// the condition numbers of 100 and what the contact law makes of it: below 1e-5.
 #[test]

@@ -63,6 +63,15 @@ fn width(indices: &Indices<'_>, k: usize) -> Option<&'static str> {
     }
 }
 
+/// Why an entry of a matrix is refused that is a double.
+pub(super) fn too_large((name, i, j): (&str, usize, usize), value: f64) -> String {
+    let place = entry(name, [i, j]);
+    format!(
+        "{place} is {}: sums of such entries overflow; choose units in which they are smaller",
+        number(value)
+    )
+}
+
 /// Entry `k` of `row`, in column `j`, is no row of the matrix.
 pub(super) fn row_out_of_range(matrix: &SparseMatrix<'_>, k: usize, j: usize) -> String {
     let (value, base) = (matrix.row.get(k), matrix.index_base);
