@@ -53,7 +53,9 @@
 !     info      0: solved and certified. > 0: SIGNORINI_STATUS_..., results were written but are
 !               not a solution. -k: the k-th argument in the parentheses of your call, counted as
 !               if none was left out, is wrong, and nothing was written. CONTACT_WRONG_MODEL: so
-!               is the model itself. <= -1000: internal, memory, a file.
+!               is the model itself. <= -1000: internal, memory, a file. Of %pair,
+!               %pair_obstacle and %pair_rigid the k of search_distance stands for settings too, and
+!               of %join -1 for all that is wrong in a zone: message tells which it is.
 !     message   a sentence of any length that tells what is wrong and where, or, if info is 0, the
 !               remarks on the solution, most often none. Indices in it count from 1.
 module signorini
