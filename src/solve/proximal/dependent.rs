@@ -106,10 +106,14 @@ impl InSeries for Bodies<'_> {
         self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
     }
 
+    /// The springs before are released first. Where there is no time for others the first ones come back.
     fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
         let compliance = changed(self.compliance, softer, COMPLIANCE);
-        // Where there is no time for others these stay.
-        if compliance != self.compliance
+        if compliance == self.compliance {
+            return;
+        }
+        (self.compliance, self.changed) = (COMPLIANCE, None);
+        if compliance < COMPLIANCE
             && let Ok(Ok(condensed)) = condensed(self.relation, compliance, monitor)
         {
             (self.compliance, self.changed) = (compliance, Some(condensed));
