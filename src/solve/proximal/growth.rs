@@ -5,8 +5,10 @@ use crate::law::{bounded, exceed_gaps};
 use crate::linalg::vector::{norm, norm_inf};
 use crate::problem::{ContactProblem, Redundant};
 
-/// So many rounds that add the same forces are enough to see that they do not end.
-const ROUNDS: usize = 8;
+/// So many rounds that add the same forces are enough to see that they do not end, and so many after the first solution for
+/// forces to settle: `eta` feels an error in a pattern of forces by its flexibility alone, and is small before forces of
+/// nearly redundant pairs are right. A flexibility of `1e-8` beside that of the pairs takes five.
+pub const ENOUGH: usize = 8;
 
 /// Forces added by two rounds are the same if they differ by less than this part: rounds that still tend to
 /// something at such a rate would take thousands.
@@ -40,7 +42,7 @@ impl Growth {
 
     /// The forces that each of the last rounds has added, if they go on and on.
     pub fn pattern(&self) -> Option<&[f64]> {
-        self.last.as_deref().filter(|_| self.same >= ROUNDS)
+        self.last.as_deref().filter(|_| self.same >= ENOUGH)
     }
 }
 

@@ -16,7 +16,7 @@
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
 //! do work on the gaps.
 
-use super::growth::{Growth, contradicts, sentence};
+use super::growth::{ENOUGH, Growth, contradicts, sentence};
 use super::step::{measured, step};
 use crate::error::Error;
 use crate::law::{Contact, without_friction};
@@ -56,11 +56,6 @@ const SLOW: f64 = 0.1;
 /// So many rounds that do not halve the least error get nowhere: the pattern that is left has hardly any flexibility, or
 /// rounding is reached.
 const IDLE_ROUNDS: usize = 12;
-
-/// Most rounds after the first solution, until the forces settle: `eta` feels an error in a pattern of forces by its
-/// flexibility alone, and is small before forces of nearly redundant pairs are right. A flexibility of `1e-8` beside
-/// that of the pairs takes five.
-const LAST_ROUNDS: usize = 8;
 
 /// Bodies with springs in series with their pairs.
 pub trait InSeries {
@@ -263,7 +258,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
             self.best = Some(found);
         }
         self.solved += usize::from(was_solved);
-        stops || was_solved && (settled || self.solved >= LAST_ROUNDS)
+        stops || was_solved && (settled || self.solved >= ENOUGH)
     }
 }
 
