@@ -6,8 +6,8 @@ use crate::common::flexible::{Case, gram};
 use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
 use signorini::{
-    ContactData, ContactProblem, FlexibilityProblem, FrictionLaw, Method, Monitor, Settings, State,
-    Status, Uniqueness, solve, solve_flexibility,
+    ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Method, Monitor,
+    Settings, State, Status, Uniqueness, solve, solve_flexibility,
 };
 
 /// The flexibility of a node on springs of stiffness 2 along each axis against planes with these outward
@@ -324,6 +324,27 @@ fn a_wall_beyond_its_gap_is_proved_to_be() {
         case.gap[pairs] = 0.4;
         let solution = case.solve();
         assert_eq!(solution.status, Status::Solved, "{round}: {}", solution.message);
+    }
+}
+
+/// A tied pair that nothing moves is where it may not be, beside a pair whose normal and tangent move as one: its forces tend to
+/// their end while those of the tie grow without one, and these alone are the proof.
+#[test]
+fn a_tie_that_nothing_moves_is_proved_to_be_elsewhere() {
+    let mut w = vec![0.0; 16];
+    [0, 1, 4, 5].into_iter().for_each(|at| w[at] = 1.0);
+    for tied in [[-1.0, -2.0], [0.5, 0.0], [0.0, 1.0]] {
+        let case = Case::new(2, w.clone(), [[3.0, 2.0], tied].concat(), 0.0);
+        let law = FrictionLaw::ByPair(&[0.0, 0.0, 0.0, 0.0, 7.0, 0.0, 0.0, 0.0]);
+        let problem = FlexibilityProblem::from_flexibility(FlexibilityData { law, ..case.data() });
+        let settings = Settings::default();
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = solve_flexibility(&problem.unwrap(), &settings, None, monitor).unwrap();
+        let context = format!("{tied:?}: {}", solution.message);
+        assert_eq!(solution.status, Status::NoEquilibrium, "{context}");
+        let proof = solution.recession.expect("a proof");
+        assert_eq!(proof[..2], [0.0, 0.0], "{context}");
+        assert!(proof[2] * tied[0] + proof[3] * tied[1] != 0.0, "{context}: {proof:?}");
     }
 }
 

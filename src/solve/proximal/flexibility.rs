@@ -97,8 +97,7 @@ pub fn solve(
     Ok(solution)
 }
 
-/// Why forces do not settle, of a definite `W` nothing. `None`: the pairs depend on each other, as the sentence of the
-/// rounds says.
+/// Why forces do not settle, of a definite `W` nothing. `None`: the sentence of the rounds stands.
 fn cause(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Option<&'static str> {
     if is_definite(relation, monitor) {
         return Some("");

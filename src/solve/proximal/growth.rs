@@ -14,7 +14,7 @@ pub const ENOUGH: usize = 8;
 /// something at such a rate would take thousands.
 const SAME: f64 = 1e-4;
 
-/// Part of the largest force of a pattern that a pair must have to be named.
+/// Part of the largest force of a pattern that a force must have to count.
 const COUNTS: f64 = 1e-6;
 
 /// True if forces grow by the same pattern round by round.
@@ -46,11 +46,19 @@ impl Growth {
     }
 }
 
-/// True if the forces of a pattern prove that no displacements meet all gaps.
-pub fn contradicts<R: Redundant>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> bool {
+/// The forces of a pattern which prove that no displacements meet all gaps, if they do: all of them, or those that carry, as others
+/// may still tend to something.
+pub fn proof_in<R: Redundant>(
+    problem: &ContactProblem<'_, R>,
+    pattern: &[f64],
+) -> Option<Vec<f64>> {
     let relation = problem.relation();
     let forces = bounded(problem, pattern);
-    relation.balance_each_other(&forces, 0.0) && exceed_gaps(problem, &forces, relation.offset())
+    let least = COUNTS * norm_inf(&forces);
+    let carry = forces.iter().map(|force| if force.abs() > least { *force } else { 0.0 }).collect();
+    [forces, carry].into_iter().find(|forces| {
+        relation.balance_each_other(forces, 0.0) && exceed_gaps(problem, forces, relation.offset())
+    })
 }
 
 /// Why there is no solution: the pattern in which forces grow, and whether it is `proved` that gaps contradict each

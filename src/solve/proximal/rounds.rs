@@ -16,7 +16,7 @@
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
 //! do work on the gaps.
 
-use super::growth::{ENOUGH, Growth, contradicts, sentence};
+use super::growth::{ENOUGH, Growth, proof_in, sentence};
 use super::step::{measured, step};
 use crate::error::Error;
 use crate::law::{Contact, without_friction};
@@ -111,12 +111,12 @@ pub fn solve<'p, R: Clone + Redundant>(
     if found.solution.status != Status::Stalled {
         return Ok((found, None));
     }
-    let is_proof = |pattern: &Vec<f64>| contradicts(problem, pattern);
-    let mut proved = found.pattern.clone().filter(is_proof);
+    let proof = |pattern: Vec<f64>| proof_in(problem, &pattern);
+    let mut proved = found.pattern.clone().and_then(proof);
     if proved.is_none() {
         // With friction they may hide behind forces that wedge.
         let settings = Settings { method: Method::Auto, ..settings.clone() };
-        proved = rounds(&without_friction(problem), &settings, None)?.pattern.filter(is_proof);
+        proved = rounds(&without_friction(problem), &settings, None)?.pattern.and_then(proof);
     }
     if let Some(pattern) = proved.as_deref().or(found.pattern.as_deref()) {
         found.solution.message = sentence(problem, pattern, proved.is_some(), number).into();
