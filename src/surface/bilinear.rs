@@ -34,6 +34,13 @@ fn coefficients(kind: FaceKind, corner: impl Fn(usize) -> f64) -> [f64; 4] {
 }
 
 impl Bilinear {
+    /// Local coordinates as the places in the plane.
+    pub(super) const LOCAL: Bilinear = Bilinear {
+        x: [[0.0, 1.0, 0.0, 0.0], ACROSS, [0.0; 4]],
+        inverse: [[1.0, 0.0], [0.0, 1.0]],
+        bend: [0.0; 2],
+    };
+
     /// Through the corners of a face in the axes of a plane.
     pub(super) fn new(face: &Face<'_>) -> Bilinear {
         let along = |c: usize| coefficients(face.kind, |corner| face.x[corner][c]);
@@ -74,6 +81,23 @@ impl Bilinear {
         let along = self.x.map(|[_, c1, _, c3]| c1 + c3 * t);
         let across = self.x.map(|[_, _, c2, c3]| c2 + c3 * s);
         [place, along, across].map(Vector3::from)
+    }
+
+    /// The place in the plane.
+    pub(super) fn place(&self, at: Local) -> Point {
+        let [x, ..] = self.at(at);
+        [x.x, x.y]
+    }
+
+    /// The area of a unit of local coordinates in the plane; negative of a face that is turned over.
+    pub(super) fn area(&self, at: Local) -> f64 {
+        let [_, a, b] = self.at(at);
+        a.x * b.y - a.y * b.x
+    }
+
+    /// The change of both derivatives with the other coordinate.
+    pub(super) fn twist(&self) -> Vector3 {
+        Vector3::from(self.x.map(|[.., twist]| twist))
     }
 
     /// How much the area of a unit of local coordinates changes from the middle to a corner, relative to that

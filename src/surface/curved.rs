@@ -27,6 +27,8 @@ pub(super) struct Curved {
     centre: Local,
     /// How much the derivatives change from the middle to a corner, relative to those in the middle.
     change: f64,
+    /// The part of it that the face which the corners span does not have.
+    bend: f64,
     /// The largest slope against the plane at a corner.
     pub(super) lean: f64,
 }
@@ -69,19 +71,21 @@ fn evaluate(c: &Polynomial, [s, t]: Local) -> [f64; 3] {
 }
 
 impl Curved {
-    /// Through the nodes of a face in the axes of a plane.
-    pub(super) fn new(face: &Face<'_>) -> Curved {
+    /// Through the nodes of a face in the axes of a plane, with the face that its corners span.
+    pub(super) fn new(face: &Face<'_>, corners: &Bilinear) -> Curved {
         let along = |c: usize| polynomial(face.kind, |node| face.x[node][c]);
         let across = if face.kind.is_line() { ACROSS } else { along(1) };
         let x = [along(0), across, along(2)];
-        let mut curved = Curved { x, centre: face.kind.centre(), change: 0.0, lean: 0.0 };
-        curved.measure(face.kind);
+        let centre = face.kind.centre();
+        let mut curved = Curved { x, centre, change: 0.0, bend: 0.0, lean: 0.0 };
+        curved.measure(face.kind, corners.twist());
+        curved.change = curved.bend + corners.distortion();
         curved
     }
 
-    /// Compares derivatives at the corners with those in the middle: of a triangle along the edges from each corner, so that it does
+    /// Compares derivatives at the corners, without what they have by a twist, with those in the middle: of a triangle along the edges from each corner, so that it does
     /// not matter at which its list of nodes begins.
-    fn measure(&mut self, kind: FaceKind) {
+    fn measure(&mut self, kind: FaceKind, twist: Vector3) {
         let mut at_centre = self.slopes(kind.centre());
         let mut slopes = [at_centre; MOST_NODES];
         let at_corners = &mut slopes[..kind.corners()];
@@ -90,6 +94,7 @@ impl Curved {
             let [c, d] = *slopes;
             let normal = c.cross(&d);
             self.lean = self.lean.max(normal.x.hypot(normal.y) / normal.z.abs());
+            *slopes = [c - corner[1] * twist, d - corner[0] * twist];
         }
         let from_next_corner = |[a, b]: [Vector3; 2]| [b - a, -a];
         for _ in 0..if kind.is_triangle() { kind.corners() } else { 1 } {
@@ -99,7 +104,7 @@ impl Curved {
                 let (e, f) = (*c - a, *d - b);
                 let steps = [e.cross(&b).z, a.cross(&e).z, f.cross(&b).z, a.cross(&f).z];
                 let [es, et, fs, ft] = steps.map(|step| (step / area).abs());
-                self.change = self.change.max(es + fs).max(et + ft);
+                self.bend = self.bend.max(es + fs).max(et + ft);
                 [*c, *d] = from_next_corner([*c, *d]);
             }
             at_centre = from_next_corner(at_centre);
@@ -145,9 +150,9 @@ impl Curved {
         std::array::from_fn(|c| Vector3::new(x[c], y[c], z[c]))
     }
 
-    /// As [`Bilinear::distortion`]: the inverse of `s + e s² / 2` is analytic up to the distance `1 / 2 e` from the
+    /// As [`Bilinear::distortion`], beyond that of the corners: the inverse of `s + e s² / 2` is analytic up to the distance `1 / 2 e` from the
     /// middle, half as far as that of a bilinear face.
-    pub(super) fn distortion(&self) -> f64 {
-        2.0 * self.change
+    pub(super) fn bending(&self) -> f64 {
+        2.0 * self.bend
     }
 }

@@ -1,8 +1,11 @@
 //! Where a slave face and the master faces lie over each other: the parts, and points of integration.
 //!
-//! A slave face with straight edges is compared with its masters in the auxiliary plane, a curved one in its own local
-//! coordinates, where its outline is straight: its parts over the masters make up the whole of it.
+//! A slave face with straight edges is compared with its masters in the auxiliary plane. A curved one is compared on the face that
+//! its corners span, point by point of its local coordinates: its outline is straight there, and its parts over the masters make up
+//! the whole of it. The outlines of masters are bent by as much as the slave's mid nodes stand off straight edges, and by rounding
+//! of these not at all.
 
+use super::bilinear::Bilinear;
 use super::clip::{Clipper, Point, measure, turn_left};
 use super::face::{Face, ON_EDGE};
 use super::plane::{Flat, MOST_SAG, Plane, outline};
@@ -24,8 +27,8 @@ const OF_SAG: f64 = 1e-4;
 /// local coordinates may turn back.
 const AROUND: f64 = 0.1;
 
-/// An edge of the length of the face stands off the straight one by this share of the face's distortion, relative to it.
-const OF_DISTORTION: f64 = 0.125;
+/// An edge of the length of the face stands off the straight one by this share of what bends it, relative to it.
+const OF_BENDING: f64 = 0.125;
 
 /// Beyond the points of a part distances reach further by at most this share of what they differ by at these: with two
 /// points along a line by .37 at either end.
@@ -47,7 +50,11 @@ pub(super) struct Meeting {
 pub(super) struct SlaveFace<'a> {
     plane: Plane,
     flat: Flat<'a>,
-    /// Where the face and its masters are compared: in the plane, or in its local coordinates.
+    /// The face with straight edges on which this one and its masters are compared: that of the corners, or, if they span none,
+    /// local coordinates.
+    straight: Bilinear,
+    /// How far the face is from that one, as a distortion.
+    bending: f64,
     outline: Vec<Point>,
     /// A convex polygon around a curved face in the plane.
     around: Option<Vec<Point>>,
@@ -83,7 +90,7 @@ pub(super) struct Overlaps {
     near: Clipper,
     /// A master's outline in the plane.
     window: Vec<Point>,
-    /// A master's outline in the local coordinates of a curved slave.
+    /// A master's outline where a curved slave is straight.
     mapped: Vec<Point>,
 }
 
@@ -97,12 +104,15 @@ impl<'a> SlaveFace<'a> {
         let plane = Plane::new(face.kind.dim(), face.position(face.kind.centre()), normal);
         let flat = plane.flatten(face);
         let around = flat.is_curved().then(|| flat.around(AROUND));
-        let mut own = face.kind.places()[..face.kind.corners()].to_vec();
-        if around.is_none() {
-            outline(&flat.face, &mut own);
-        }
+        let (straight, bending) = match around.is_none() || flat.corners.distortion() < FOLDED {
+            true => (flat.corners, flat.bending()),
+            false => (Bilinear::LOCAL, flat.distortion()),
+        };
+        let corners = &face.kind.places()[..face.kind.corners()];
+        let mut own: Vec<Point> = corners.iter().map(|at| straight.place(*at)).collect();
+        turn_left(&mut own);
         let area = measure(&own);
-        SlaveFace { plane, flat, outline: own, around, area, face: face.clone() }
+        SlaveFace { plane, flat, straight, bending, outline: own, around, area, face: face.clone() }
     }
 
     /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`.
@@ -150,15 +160,16 @@ impl<'a> SlaveFace<'a> {
         share * own / own.min(other)
     }
 
-    /// A polygon of the plane in local coordinates. With edges that these bend much it has their middles too.
+    /// A polygon of the plane where the face is straight. With edges that this bends much it has their middles too.
     fn map(&self, polygon: &[Point], mapped: &mut Vec<Point>) -> Result<(), NotFound> {
         mapped.clear();
-        let halve = OF_DISTORTION * self.flat.distortion() > MOST_SAG && !self.face.kind.is_line();
+        let halve = OF_BENDING * self.bending > MOST_SAG && !self.face.kind.is_line();
         for (i, &p) in polygon.iter().enumerate() {
             let next = polygon[(i + 1) % polygon.len()];
             let middle = [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
             for p in [Some(p), halve.then_some(middle)].into_iter().flatten() {
-                mapped.push(self.flat.local_beyond(p).ok_or(NotFound)?);
+                let at = self.flat.local_beyond(p).ok_or(NotFound)?;
+                mapped.push(self.straight.place(at));
             }
         }
         if self.face.kind.is_line() {
@@ -193,10 +204,13 @@ impl<'a> SlaveFace<'a> {
             return None;
         }
         let of_edges = OF_SAG * self.flat.sag().max(master.sag());
-        let of_distortion = match distortion > ON_EDGE {
-            true => terms(0.5 * distortion, LEFT.max(of_edges)) - 1,
+        let of = |distortion: f64, left: f64| match distortion > ON_EDGE {
+            true => terms(0.5 * distortion, left) - 1,
             false => 0,
         };
+        // The slave's own integrals are those of its loads, whatever its edges leave to neighbours.
+        let own = of(self.straight.distortion(), LEFT);
+        let of_distortion = own.max(of(distortion, LEFT.max(of_edges)));
         let of_warp = match warp > ON_EDGE {
             true => 2 * (terms(warp * warp, LEFT.max(of_edges)) - 1),
             false => 0,
@@ -215,10 +229,11 @@ impl<'a> SlaveFace<'a> {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let in_plane = self.around.is_none();
         quadrature::points(common, self.points_along(master)).try_for_each(|(p, part)| {
-            let slave = if in_plane { self.flat.local(p).ok_or(NotFound)? } else { p };
+            let slave = self.straight.local(p).ok_or(NotFound)?;
             let [x, along, across] = self.flat.at(slave);
             let normal = along.cross(&across);
-            let area = part * normal.norm() / if in_plane { normal.z.abs() } else { 1.0 };
+            let straight = if in_plane { normal.z } else { self.straight.area(slave) };
+            let area = part * normal.norm() / straight.abs();
             let at = master.local(if in_plane { p } else { [x.x, x.y] }).ok_or(NotFound)?;
             let height = master.height(at) - x.z;
             range = [range[0].min(height), range[1].max(height)];

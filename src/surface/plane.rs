@@ -72,15 +72,16 @@ pub(super) struct Flat<'a> {
     /// The face in the axes of the plane, with heights above it.
     pub(super) face: Face<'a>,
     /// The face that the corners span: this one, if its edges are straight.
-    corners: Bilinear,
+    pub(super) corners: Bilinear,
     curved: Option<Curved>,
 }
 
 impl<'a> Flat<'a> {
     /// The geometry of a projected face.
     pub(super) fn new(face: Face<'a>) -> Flat<'a> {
-        let curved = (!face.is_bilinear()).then(|| Curved::new(&face));
-        Flat { corners: Bilinear::new(&face), face, curved }
+        let corners = Bilinear::new(&face);
+        let curved = (!face.is_bilinear()).then(|| Curved::new(&face, &corners));
+        Flat { corners, face, curved }
     }
 
     pub(super) fn is_curved(&self) -> bool {
@@ -127,10 +128,12 @@ impl<'a> Flat<'a> {
     /// How much derivatives change from the middle to a corner, relative to those in the middle: 0 where local
     /// coordinates are linear in the position, 1 where a corner may be straight.
     pub(super) fn distortion(&self) -> f64 {
-        match &self.curved {
-            Some(curved) => curved.distortion(),
-            None => self.corners.distortion(),
-        }
+        self.corners.distortion() + self.bending()
+    }
+
+    /// The part of the distortion that the face which the corners span does not have.
+    pub(super) fn bending(&self) -> f64 {
+        self.curved.map_or(0.0, |curved| curved.bending())
     }
 
     /// The largest slope that warp or curvature adds to that of the middle.

@@ -25,6 +25,7 @@ mod press_fit;
 mod quadrilaterals;
 mod reach;
 mod resultants;
+mod rounded_mids;
 mod rows;
 mod sectors;
 mod steps;

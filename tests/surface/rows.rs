@@ -197,20 +197,42 @@ fn faces_pass_the_patch_test_by_statics() {
         for master in SHAPES {
             for distortion in [0.0, 0.25] {
                 for part in [0.0, 0.03, 0.5, 0.95, 0.9999] {
-                    statics_of(slave, master, (distortion, part), &mut rng);
+                    statics_of(slave, master, (distortion, part, 1e-16), &mut rng);
                 }
             }
         }
     }
 }
 
-fn statics_of(slave: Shape, master: Shape, (distortion, part): (f64, f64), rng: &mut Rng) {
-    let context = format!("{slave:?} on {master:?}, distorted {distortion}, overhang {part}");
+/// Coordinates of decks have some digits: mid nodes then stand off their edges by rounding. Distorted faces of all kinds, covered
+/// wholly, pass the patch test with seven digits and ten as with all: what faces leave to neighbours is of the square.
+#[test]
+fn faces_with_rounded_coordinates_pass_the_patch_test() {
+    let mut rng = Rng::with_seed(21);
+    for (slave, master) in SHAPES.into_iter().flat_map(|s| SHAPES.map(|m| (s, m))) {
+        for digits in [1e-7, 1e-10] {
+            statics_of(slave, master, (0.25, 0.0, digits), &mut rng);
+        }
+    }
+}
+
+fn statics_of(
+    slave: Shape,
+    master: Shape,
+    (distortion, part, digit): (f64, f64, f64),
+    rng: &mut Rng,
+) {
+    let context = format!(
+        "{slave:?} on {master:?}, distorted {distortion}, overhang {part}, digits to {digit:e}"
+    );
+    let rounded =
+        |x: [f64; 3]| x.map(|x| if digit > 1e-15 { (x / digit).round() * digit } else { x });
     // Overhang of a share of the slave's element in x and y.
     let shift = [part * 0.5, part / 3.0];
-    let above = Sheet::rectangle(slave, [2, 3], [[0.0, 1.0], [0.0, 1.0]], (distortion, rng));
+    let above = Sheet::rectangle(slave, [2, 3], [[0.0, 1.0], [0.0, 1.0]], (distortion, rng))
+        .mapped(rounded);
     let ends = [[shift[0], 1.0 + shift[0]], [shift[1], 1.0 + shift[1]]];
-    let below = Sheet::rectangle(master, [3, 2], ends, (distortion, rng));
+    let below = Sheet::rectangle(master, [3, 2], ends, (distortion, rng)).mapped(rounded);
     let window = [[shift[0], 1.0], [shift[1], 1.0]];
     let loads = [exact_sheet_loads(&above, window), exact_sheet_loads(&below, window)];
     let sheets = TwoSheets::new(3, above.turned().mapped(placed), below.mapped(placed));

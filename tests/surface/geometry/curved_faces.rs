@@ -20,7 +20,7 @@ fn polynomials_are_the_face() {
             *x = Vector3::new(s + bend(), across, bend());
         }
         let face = Face { kind, nodes: &[], x, is_ring: false };
-        let curved = Curved::new(&face);
+        let curved = Curved::new(&face, &Bilinear::new(&face));
         for _ in 0..20 {
             let at = [0.8 * rng.f64(), if kind.is_line() { 0.0 } else { 0.2 * rng.f64() }];
             let place = face.position(at);
