@@ -17,7 +17,7 @@ use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
-use super::projected_shapes::{Covered, Opposite, Polynomials};
+use super::projected_shapes::{Covered, NOWHERE, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
 use super::self_overlap::UPON;
@@ -68,6 +68,7 @@ pub(super) fn pairs<'a>(
         if cover.0.is_none() {
             report.uncovered_faces.push(at);
         }
+        report.distances.push(cover.0.as_ref().map_or(NOWHERE, |covered| covered.range));
         faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
@@ -153,7 +154,11 @@ impl<'a> Search<'a> {
         }
         let mut covered = polynomials.project(face.kind, points, &parts);
         if let Some(shapes) = shapes {
-            covered.gaps = polynomials.fit(&shapes.gaps((at, face), points, &parts));
+            let gaps = shapes.gaps((at, face), points, &parts);
+            covered.gaps = polynomials.fit(&gaps);
+            covered.range = range(gaps.iter().map(|gap| [*gap; 2]));
+        } else {
+            covered.range = range(parts.iter().map(|opposite| opposite.part.range));
         }
         Ok((Some(covered), share(&parts) >= 1.0 - SAME_COVER && is_off_axis))
     }
@@ -165,8 +170,9 @@ impl<'a> Search<'a> {
         (face, normal): (&Face<'_>, Vector3),
         watch: &mut Watch<'_, '_>,
     ) -> Result<Vec<Opposite<'a>>, Error> {
-        let Search { sides: [slave, master], candidates, overlaps, .. } = self;
-        let in_plane = SlaveFace::new(face, normal);
+        let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
+        let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
+        let in_plane = SlaveFace::new(face, normal).for_gaps(of_gaps);
         overlaps.points.clear();
         let reach = candidates.reach;
         let mut parts = Vec::new();
@@ -214,6 +220,11 @@ fn keep(
         is_kept
     });
     points.truncate(end);
+}
+
+/// The range of several.
+fn range(of: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    of.fold(NOWHERE, |[low, high], [least, most]| [low.min(least), high.max(most)])
 }
 
 /// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between

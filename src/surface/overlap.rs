@@ -60,6 +60,8 @@ pub(super) struct SlaveFace<'a> {
     around: Option<Vec<Point>>,
     area: f64,
     face: Face<'a>,
+    /// Degree that gaps have beyond those of faces.
+    of_gaps: usize,
 }
 
 /// The part of a slave face over a master face.
@@ -69,7 +71,7 @@ pub(super) struct Part {
     pub(super) share: f64,
     /// Mean distance along the normal, and its least and largest value at the points.
     pub(super) distance: f64,
-    range: [f64; 2],
+    pub(super) range: [f64; 2],
 }
 
 impl Part {
@@ -112,7 +114,22 @@ impl<'a> SlaveFace<'a> {
         let mut own: Vec<Point> = corners.iter().map(|at| straight.place(*at)).collect();
         turn_left(&mut own);
         let area = measure(&own);
-        SlaveFace { plane, flat, straight, bending, outline: own, around, area, face: face.clone() }
+        SlaveFace {
+            plane,
+            flat,
+            straight,
+            bending,
+            outline: own,
+            around,
+            area,
+            face: face.clone(),
+            of_gaps: 0,
+        }
+    }
+
+    /// The face with points for gaps that have this degree beyond those of faces.
+    pub(super) fn for_gaps(self, degree: usize) -> SlaveFace<'a> {
+        SlaveFace { of_gaps: degree, ..self }
     }
 
     /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`.
@@ -186,7 +203,7 @@ impl<'a> SlaveFace<'a> {
         let ring = if self.face.is_ring { own } else { 0 };
         // The area of a quadrilateral is linear along both directions.
         let of_area = if self.face.kind.is_line() { 1 } else { 2 };
-        let degree = own + own.max(master.face.kind.degree()) + ring + of_area;
+        let degree = own + own.max(master.face.kind.degree()) + ring + of_area + self.of_gaps;
         let further = self.further_degrees(master);
         further.map_or(MOST_POINTS, |more| (degree + more).div_ceil(2).min(MOST_POINTS))
     }

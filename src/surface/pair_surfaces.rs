@@ -96,7 +96,8 @@ fn pair_sides(
     watch.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
     watch.goes_on()?;
-    found.report.overlapping_and_rough = overlapping_and_rough(&slave, &found, watch)?;
+    found.report.overlapping_and_rough = overlapping_and_rough(&slave, &found, settings, watch)?;
+    found.report.distances = Vec::new();
     Ok(found)
 }
 
@@ -152,13 +153,20 @@ fn span(sides: [&Side<'_>; 2]) -> f64 {
     own.with(&opposite).diagonal()
 }
 
-/// The slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that.
+/// Between the ends of a chord an arc stands off by two thirds of the most in the mean, which is off the middle of its range by a
+/// sixth: facets change the mean gap by so many times that. Facets of one length change it by nothing.
+const OF_ARC: f64 = 4.0;
+
+/// The slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that: from
+/// node to node, or between nodes, where they do so on one side of their mean as the gaps of facets do. Then a face counts that
+/// overlaps in places. On a wedge gaps differ between nodes as they do from node to node.
 ///
 /// # Errors
 /// What ends the watch.
 fn overlapping_and_rough(
     slave: &Side<'_>,
     found: &SurfacePairs,
+    settings: &SurfaceSettings,
     watch: &mut Watch<'_, '_>,
 ) -> Result<[usize; 2], Error> {
     let mut gap_at = vec![None; found.pairs.last().map_or(0, |pair| pair.slave + 1)];
@@ -173,9 +181,19 @@ fn overlapping_and_rough(
         let (Some(least), Some(most)) = (least, most) else { continue };
         let overlap = -gaps.iter().sum::<f64>() / gaps.len() as f64;
         // Sides that touch have gaps of rounding, of either sign.
-        let overlaps = overlap > ROUNDING_OF_SUM * face.size();
-        overlapping += usize::from(overlaps);
-        rough += usize::from(overlaps && most - least > overlap);
+        let rounding = ROUNDING_OF_SUM * face.size();
+        let overlaps = overlap > rounding;
+        // Gaps that were closed do not vary.
+        let is_closed = [least, most] == [settings.gap(0.0); 2];
+        let within = found.report.distances.get(at).filter(|_| !is_closed);
+        let is_rough_within = within.is_some_and(|range| {
+            let [low, high] = range.map(|distance| settings.gap(distance));
+            let lost = OF_ARC * (-overlap - 0.5 * (low + high));
+            let given = overlap.abs().min((overlap + lost).abs()).max(rounding);
+            -low > rounding && high - low > (most - least) + overlap.abs() && lost.abs() > given
+        });
+        overlapping += usize::from(overlaps || is_rough_within);
+        rough += usize::from(overlaps && most - least > overlap || is_rough_within);
     }
     Ok([overlapping, rough])
 }

@@ -80,9 +80,11 @@ pub struct SurfaceReport {
     pub idle_planes: Vec<usize>,
     /// Slave faces that look away from an obstacle that is a shape.
     pub looking_away: usize,
-    /// Slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that:
-    /// the facets are larger than the interference.
+    /// Slave faces whose pairs overlap the other side in the mean, or which do in places while gaps differ by more than their mean,
+    /// and those of them on which gaps differ by more than that: the facets are larger than the interference.
     pub overlapping_and_rough: [usize; 2],
+    /// The least and the largest distance within each slave face, while pairs are made.
+    pub(super) distances: Vec<[f64; 2]>,
 }
 
 /// An entry of a row: `true` of a master, the node, its weight, and what keeps turns.

@@ -26,6 +26,10 @@ const LAST: f64 = 1e-9;
 /// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
 const LEAST_FALL: f64 = 0.2;
 
+/// The degree of a patch: cubics, between those of a quadrilateral times what is linear. With this on both sides integrals of gaps
+/// are exact to some ten digits of what the shapes stand off the faces: beside these, interferences are small.
+const OF_PATCH: usize = 4;
+
 /// A side with its true shape: an exact one, or fitted normals; without either its faces.
 #[derive(Default)]
 struct TrueSide {
@@ -82,6 +86,11 @@ impl<'a> TrueSides<'a> {
     /// The size of lengths that gaps are differences of, beside the places of nodes.
     pub(super) fn size(&self) -> f64 {
         self.sides.iter().flat_map(|side| &side.exact).map(ExactShape::size).sum()
+    }
+
+    /// The degree that gaps have beyond those between faces.
+    pub(super) fn degree(&self) -> usize {
+        OF_PATCH * self.sides.iter().filter(|side| side.fitted.is_some()).count()
     }
 
     /// The gaps at the points of a slave face.

@@ -171,21 +171,29 @@ fn rings_have_the_pressure_of_lame() {
     }
 }
 
-/// The facets of 40 on 13 elements stand apart by up to 30 times the interference: the summary says so, and with true shapes
-/// there is nothing to say.
+/// The facets of 40 on 13 elements stand apart by up to 30 times the interference: the summary says so, whichever side is the
+/// slave, and with true shapes there is nothing to say. Of 64 on 150 they hide a third of the interference, and more than all of
+/// a tenth of it, from the side of 64, whose pairs have one gap all around; as many on as many hide none, however they are turned.
 #[test]
 fn facets_that_are_larger_than_the_interference_are_told() {
-    let fit = Fit::new([40, 13], Order::Linear, 0.0);
-    for (shape, is_told) in [(TrueShape::Facets, true), (CIRCLE, false)] {
-        let settings =
-            SurfaceSettings { shapes: [shape; 2], clearance: -INTERFERENCE, ..Default::default() };
-        let summary = fit.pairs(false, &settings).summary().to_string();
-        assert!(!summary.contains("every pair overlaps"), "{summary}");
-        assert_eq!(
-            summary.contains("facets are larger than the interference"),
-            is_told,
-            "{summary}"
-        );
+    let facets = (TrueShape::Facets, true);
+    for (divisions, part, (shape, is_told)) in [
+        ([40, 13], 1.0, facets),
+        ([40, 13], 1.0, (CIRCLE, false)),
+        ([64, 150], 1.0, facets),
+        ([64, 150], 0.1, facets),
+        ([64, 150], 10.0, (TrueShape::Facets, false)),
+        ([24, 24], 1.0, (TrueShape::Facets, false)),
+    ] {
+        let fit = Fit::new(divisions, Order::Linear, 0.0);
+        let clearance = -part * INTERFERENCE;
+        let settings = SurfaceSettings { shapes: [shape; 2], clearance, ..Default::default() };
+        for hub_is_slave in [false, true] {
+            let summary = fit.pairs(hub_is_slave, &settings).summary().to_string();
+            assert!(!summary.contains("every pair overlaps"), "{summary}");
+            let says = summary.contains("facets are larger than the interference");
+            assert_eq!(says, is_told, "{divisions:?}, {hub_is_slave}: {summary}");
+        }
     }
 }
 
