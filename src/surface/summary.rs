@@ -118,7 +118,9 @@ impl SurfacePairs {
             found += &format!(", or overlaps them by at most {}", short(report.overlap_distance));
         }
         match report.not_opposed {
-            0 => format!("{found}; if it should, give a larger search distance"),
+            0 => format!(
+                "{found}; if it should, give a larger search distance, or check the numbers from which nodes of faces count"
+            ),
             times => format!(
                 "{found}, but {times} times a master face was near whose normal does not \
                  oppose the slave's: one side is turned over, or the search distance is too small"

@@ -11,7 +11,7 @@ import numpy as np
 from common import LOAD, K
 
 import signorini
-from signorini import Model, Remark, solve
+from signorini import Model, Remark, pair_meshes, solve
 
 # Three nodes in the plane, each degree of freedom on a spring; the first two are slaves on y = 0.
 SPRINGS = np.ones(6), np.arange(6), np.arange(7)
@@ -124,6 +124,30 @@ class Mistakes(unittest.TestCase):
         contact = signorini.pair_surfaces(far, [[4, 5]], [[3, 2]])
         with self.assertWarnsRegex(UserWarning, "zone 'cut': no pairs: .*larger search distance"):
             Model.from_surfaces((np.ones(16), np.arange(16), np.arange(17)), {"cut": contact})
+
+    def test_faces_within_a_mesh(self):
+        """Faces whose nodes count from 1 lie within the body, or beyond the mesh, and are named; parts of faces of the skin,
+        and cells of the mesh that are faces, may be given."""
+        def block(low):
+            x = np.array([[a, b, c + low] for c in (0, 1, 2) for b in (0, 1, 2) for a in (0, 1, 2)], float)
+            first = np.array([a + 3 * b + 9 * c for c in (0, 1) for b in (0, 1) for a in (0, 1)])
+            return x, {"hexahedron": first[:, None] + [0, 1, 4, 3, 9, 10, 13, 12]}
+        upper, lower = block(2), block(0)
+        below = [[a, a + 3, a + 4, a + 1] for a in (0, 1, 3, 4)]
+        above = [[a + 18, a + 19, a + 22, a + 21] for a in (0, 1, 3, 4)]
+        self.assertEqual(pair_meshes(upper, lower, slave_faces=below, master_faces=above).pairs, 9)
+        says = "is not on the skin of the mesh of the {}: check the number from which its nodes count"
+        off = [[node + 1 for node in face] for face in below]
+        with self.assertRaisesRegex(ValueError, "slave_faces: face 1, of the nodes 2, 5, 6, 3, " + says.format("slave")):
+            pair_meshes(upper, lower, slave_faces=off, master_faces=above)
+        off = [[node + 9 for node in face] for face in above]
+        with self.assertRaisesRegex(ValueError, "master_faces: face 0, of .* " + says.format("master")):
+            pair_meshes(upper, lower, slave_faces=below, master_faces=off)
+        halves = [half for a, b, c, d in below for half in ([a, b, c], [a, c, d])]
+        self.assertEqual(pair_meshes(upper, lower, slave_faces=halves, master_faces=above).pairs, 9)
+        inner = {**lower[1], "quad": np.array([[9, 10, 13, 12]])}
+        found = pair_meshes(upper, (lower[0], inner), slave_faces=below, master_faces=inner["quad"], search_distance=2)
+        self.assertGreater(found.pairs, 0)
 
     def test_matrices_of_two_meshes(self):
         """A square on a wider one, whose matrices are exchanged, and of which one is left out."""

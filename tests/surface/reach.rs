@@ -441,7 +441,7 @@ fn deep_overlaps_are_told() {
         assert!(told.clone().map(|(face, _)| *face).eq(0..25), "{:?}", found.report.beyond);
         assert!(told.clone().all(|(_, distance)| (distance + 0.5).abs() < 1e-14));
         let says = "no pairs: nothing lies opposite the 25 slave faces within 0.7071, or overlaps them by at most 0.2828; if it \
-                    should, give a larger search distance; 25 slave faces overlap a master by more than 0.2828, the nearest, \
+                    should, give a larger search distance, or check the numbers from which nodes of faces count; 25 slave faces overlap a master by more than 0.2828, the nearest, \
                     face 0, by 0.5";
         assert_eq!(found.summary().to_string(), says);
         let settings = SurfaceSettings { search_distance: Some(0.6), ..settings };

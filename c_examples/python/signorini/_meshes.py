@@ -13,6 +13,9 @@ from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_ob
 # Faces look the same way if the cosine between their normals is above this.
 SAME_WAY = 0.7
 
+# Cells that are faces, by the dimension of the space.
+FACES = {2: ("line", "line3"), 3: ("triangle", "triangle6", "quad", "quad8", "quad9")}
+
 # Areas are the same if their quotient is above this: the rest is rounding.
 SAME_AREA = 1 - 1e-6
 
@@ -27,8 +30,8 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
     slave_faces, master_faces: None, the whole skin of the mesh, of a sector without its boundaries, of a body of revolution without
     its axis; the name of a set of cells or of a physical group, of faces or of the cells whose skin is meant; a function of
     coordinates, (n, D), that tells for each node whether its faces of the skin belong, which they do if all of their
-    nodes do; or faces, as for pair_surfaces, in nodes of their mesh. Faces that lie on the skin are
-    turned to the outside; those of the slave that lie over nothing and look elsewhere than those beside
+    nodes do; or faces, as for pair_surfaces, in nodes of their mesh, which are on its skin, or cells of it. Faces that lie on the
+    skin are turned to the outside; those of the slave that lie over nothing and look elsewhere than those beside
     them over the master have no say in the normals of pairs. slave_faces, uncovered and beyond count all faces, and
     penetration asks all.
     Coordinates with a third column that is the same everywhere are those of a plane mesh if no cell
@@ -176,7 +179,24 @@ class _Mesh:
                                  f"value for each of the {len(self.coordinates)} nodes")
             return self._some([face for face in self.skin if chosen[face].all()],
                               f"{argument} chooses no face: there is none of which all nodes are chosen")
-        return self._turned([[int(node) for node in integers(argument, face).ravel()] for face in wanted])
+        faces = [[int(node) for node in integers(argument, face).ravel()] for face in wanted]
+        self._check_places(argument, faces)
+        return self._turned(faces)
+
+    def _check_places(self, argument, faces):
+        """Refuses faces that are neither on the skin, or a part of one of its faces, nor cells of the mesh."""
+        if not self.skin:
+            return
+        dim, around = self.coordinates.shape[1], {}
+        cells = [cell.tolist() for kind, nodes in self.blocks if kind in FACES[dim] for cell in nodes]
+        for known in [*self.skin, *cells]:
+            for node in known:
+                around.setdefault(node, []).append(frozenset(known))
+        for place, face in enumerate(faces):
+            if face and not any(known.issuperset(face) for known in around.get(face[0], ())):
+                raise ValueError(f"{argument}: face {place}, of the nodes {', '.join(map(str, face))}, is not on the skin of "
+                                 f"the mesh of the {self.name}: check the number from which its nodes count, from 0 in their "
+                                 "own mesh")
 
     def _some(self, faces, sentence):
         if not faces:
@@ -203,9 +223,7 @@ class _Mesh:
         inner = [block for block in chosen if dimension([block[0]]) == dim]
         if inner:
             return skin(self.coordinates, inner)
-        lines = ("line", "line3")
-        wanted_kinds = lines if dim == 2 else ("triangle", "triangle6", "quad", "quad8", "quad9")
-        return self._turned([face.tolist() for kind, nodes in chosen if kind in wanted_kinds for face in nodes])
+        return self._turned([face.tolist() for kind, nodes in chosen if kind in FACES[dim] for face in nodes])
 
     def _members(self, argument, wanted):
         """For each block the places of the cells of a set, or None."""
