@@ -84,7 +84,8 @@ pub(super) fn pairs<'a>(
             }
         }
     }
-    report.folded = rims::fold(settings.rims, &mut rows, (slave, planes), watch)?;
+    let on = (slave, &report.uncovered_faces[..], planes);
+    report.folded = rims::fold(settings.rims, &mut rows, on, watch)?;
     let pair = |node, row: Row| {
         let (gap, normal) = (row.gap / row.area, mean_normal(node, &row)?);
         let mut pair = pair_of_row(sides, planes, (node, row), normal);

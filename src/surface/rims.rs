@@ -8,13 +8,14 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::mesh::Side;
+use super::mesh::{ON_PLANE, Side};
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
 use crate::error::Error;
+use crate::linalg::vector3::Vector3;
 
 /// Nodes with less than this share of cover are at a rim. On 36 unstructured meshes the error of a linear pressure is
 /// with a half that of meshes that are covered wholly, with three tenths twice and with a tenth three times as large.
@@ -23,10 +24,15 @@ const LEAST_COVER: f64 = 0.5;
 /// Nodes with less than this are at a rim where more pairs count more than that error.
 const LEAST_OF_MANY: f64 = 0.3;
 
-/// Where so few nodes have that much that they could not hold a body, and where no node beside a rim has it, as under a
-/// punch of the size of a face, the rim is of nodes with less than this: pressures are less exact then, but moments
-/// are carried.
+/// Where the nodes within [`NEAR`] that have so much could not hold a body, as under a punch of the size of a face, and
+/// where no node beside a rim has it, the rim is of nodes with less than this: pressures are less exact then, but moments
+/// are carried. Where even these could not, as under a punch that is smaller than a face, those with most cover keep their
+/// rows until they can. What is further away does not count, so that a part has the rows of its whole.
 const LITTLE_COVER: f64 = 0.1;
+
+/// How many faces away nodes count that hold a body with a node. Rows at the boundary of a part depend on the cover of nodes
+/// five faces further, so that images of so many layers of faces make it the whole.
+const NEAR: usize = 3;
 
 /// Shares of cover that differ by less are the same, far above the rounding of edges: a face that lacks less is
 /// covered wholly, one that has more than all of it by more lies under two faces, and a node at the end of a master
@@ -47,29 +53,25 @@ const AS_NEAR: f64 = 0.9;
 pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
-    (slave, planes): (&Side<'_>, &OnPlanes),
+    (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
     watch: &mut Watch<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
-    let least = least_cover(rims, rows, slave.dim);
-    // Those that keep their rows with their cover, and those that are folded with the nodes around.
+    // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
     let (mut homes, mut little) = (HashMap::new(), Vec::new());
+    let least = least_covers(rims, rows, (slave, uncovered), watch)?;
     for (&node, row) in rows.iter() {
         watch.goes_on()?;
-        match row.cover() >= least {
-            true => drop(homes.insert(node, row.cover())),
+        match least.get(&node).is_none_or(|least| row.cover() >= *least) {
+            true => drop(homes.insert(node, true)),
             false => little.push((node, row.cover())),
         }
     }
     little.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut beside = neighbours(slave, little.iter().map(|(node, _)| *node), watch)?;
-    let next: Vec<usize> = beside.values().flatten().copied().collect();
-    for (node, around) in neighbours(slave, next.into_iter(), watch)? {
-        beside.entry(node).or_insert(around);
-    }
+    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, watch)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
         watch.goes_on()?;
-        let may = |own: &f64| *own >= least || cover < LITTLE_COVER - SAME_COVER;
+        let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
         let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
         let near = beside[&node].clone();
         let further = || near.iter().flat_map(|other| &beside[other]).copied().collect();
@@ -78,7 +80,7 @@ pub(super) fn fold(
         if around.iter().any(takes) {
             gone.insert(node, around);
         } else {
-            homes.insert(node, cover);
+            homes.insert(node, false);
         }
     }
     let fold = |(node, around): (usize, BTreeSet<usize>)| {
@@ -102,26 +104,89 @@ pub(super) fn fold(
     gone.into_iter().map(fold).collect()
 }
 
-/// The share of cover with which a node keeps its row.
-fn least_cover(rims: Rims, rows: &BTreeMap<usize, Row>, dim: usize) -> f64 {
-    let enough = |row: &&Row| row.cover() >= LEAST_COVER - SAME_COVER;
-    match rims {
-        Rims::Keep => SAME_COVER,
-        _ if rows.values().filter(enough).count() < dim => LITTLE_COVER - SAME_COVER,
-        Rims::FoldLittle => LEAST_OF_MANY - SAME_COVER,
-        Rims::Fold => LEAST_COVER - SAME_COVER,
+/// The share of cover with which each node would keep its row, of those that have less than [`LEAST_COVER`].
+fn least_covers(
+    rims: Rims,
+    rows: &BTreeMap<usize, Row>,
+    (slave, uncovered): (&Side<'_>, &[usize]),
+    watch: &mut Watch<'_, '_>,
+) -> Result<HashMap<usize, f64>, Error> {
+    let few = |row: &Row| row.cover() < LEAST_COVER - SAME_COVER;
+    let at_rims: Vec<usize> =
+        rows.iter().filter(|(_, row)| few(row)).map(|(node, _)| *node).collect();
+    if rims == Rims::Keep {
+        return Ok(at_rims.into_iter().map(|node| (node, SAME_COVER)).collect());
     }
+    let enough = if rims == Rims::Fold { LEAST_COVER } else { LEAST_OF_MANY };
+    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, watch)?;
+    let mut found = HashMap::with_capacity(at_rims.len());
+    for node in at_rims {
+        watch.goes_on()?;
+        let mut near = BTreeSet::from([node]);
+        for _ in 0..NEAR {
+            let next: Vec<usize> = near.iter().flat_map(|at| &beside[at]).copied().collect();
+            near.extend(next);
+        }
+        let mut around: Vec<(f64, Vector3)> =
+            near.into_iter().map(|at| (rows[&at].cover(), slave.position(at))).collect();
+        around.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let normal = rows[&node].normal.normalize();
+        let holds = |least: f64| {
+            let count = around.partition_point(|(cover, _)| *cover >= least);
+            hold(&around[..count], (slave.dim, normal))
+        };
+        let least = [LEAST_COVER, LITTLE_COVER].map(|least| least - SAME_COVER);
+        let least = match least.map(holds) {
+            [true, _] => enough - SAME_COVER,
+            [_, true] => LITTLE_COVER - SAME_COVER,
+            _ => {
+                // Those with as much keep theirs too.
+                let mut covers = around.iter().map(|(cover, _)| cover - SAME_COVER);
+                covers.find(|least| holds(*least)).map_or(SAME_COVER, |least| least.max(SAME_COVER))
+            }
+        };
+        found.insert(node, least);
+    }
+    Ok(found)
 }
 
-/// The other nodes of the slave faces around some nodes.
+/// `true` if forces at these places along a normal balance all moments of such forces.
+fn hold(places: &[(f64, Vector3)], (dim, normal): (usize, Vector3)) -> bool {
+    let Some(((_, first), others)) = places.split_first() else { return false };
+    let from_first = others.iter().map(|(_, place)| place - first);
+    let furthest = from_first.clone().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    let Some(along) = furthest.filter(|along| *along != Vector3::zeros()) else { return false };
+    // Of a curved surface as its normal sees it: a strip around a cylinder is a line.
+    let off_line = |a: Vector3| normal.dot(&along.cross(&a)).abs();
+    dim == 2 || from_first.map(off_line).any(|off| off > ON_PLANE * along.norm_squared())
+}
+
+/// The nodes beside some nodes, beside these, and so on, by all slave faces but some.
+fn beside(
+    (slave, without): (&Side<'_>, &[usize]),
+    nodes: impl Iterator<Item = usize>,
+    layers: usize,
+    watch: &mut Watch<'_, '_>,
+) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
+    let mut found = neighbours(slave, without, nodes, watch)?;
+    for _ in 1..layers {
+        let next: BTreeSet<usize> = found.values().flatten().copied().collect();
+        let next = next.into_iter().filter(|node| !found.contains_key(node)).collect::<Vec<_>>();
+        found.extend(neighbours(slave, without, next.into_iter(), watch)?);
+    }
+    Ok(found)
+}
+
+/// The other nodes of the slave faces around some nodes, but for some faces.
 fn neighbours(
     slave: &Side<'_>,
+    without: &[usize],
     nodes: impl Iterator<Item = usize>,
     watch: &mut Watch<'_, '_>,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
     let mut beside: HashMap<usize, BTreeSet<usize>> =
         nodes.map(|node| (node, BTreeSet::new())).collect();
-    for at in 0..slave.count() {
+    for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
         watch.goes_on()?;
         let nodes = slave.face(at).nodes;
         for node in nodes {

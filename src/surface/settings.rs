@@ -38,7 +38,9 @@ pub enum Normals {
 /// them that look the same way, over the master. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
-    /// Each gives its row to a node of its own faces; if none can take it, it keeps it. Uniform pressure stays exact.
+    /// Each gives its row to a node of its own faces; if none can take it, it keeps it. Uniform pressure stays exact. Where
+    /// a master is so small or narrow that the others could not carry moments, nodes with a tenth keep their rows, or as many with
+    /// less as can.
     #[default]
     Fold,
     /// Those alone that have less than three tenths: pressures at the rim are resolved by more pairs, and those that are not

@@ -62,8 +62,8 @@ impl WithImages {
         if let Some(sector) = &sector {
             check_boundaries(slave, (sector, &numbering.images), watch)?;
         }
-        // Rows depend on the cover of nodes up to five faces away, and fitted normals on two more.
-        let layers = if settings.shapes.contains(&TrueShape::Fitted) { 7 } else { 5 };
+        // Rows depend on the cover of nodes up to eight faces away, and fitted normals on two more.
+        let layers = if settings.shapes.contains(&TrueShape::Fitted) { 10 } else { 8 };
         let faces = layers_beyond(&mut numbering, (slave, layers), watch)?;
         let own = Extended::new(&mut numbering, slave, &faces, watch)?;
         on.see(&numbering.images);

@@ -300,12 +300,18 @@ fn the_nearest_nodes_share_a_row() {
     }
 }
 
-/// A surface all of whose nodes have little cover, from the middle: with a tenth, or kept, they hold the body by two
-/// pairs; with less one of them is folded into the other. The area is that of the master.
+/// A surface all of whose nodes have little cover, from the middle: they hold the body by two pairs, however little it is;
+/// below a millionth, which no node keeps, one of them is folded into the other. The area is that of the master.
 #[test]
 fn a_contact_of_rims_alone() {
-    for (rims, width, pairs) in [(Rims::Fold, 0.1, 2), (Rims::Fold, 0.08, 1), (Rims::Keep, 0.08, 2)]
-    {
+    for (rims, width, pairs) in [
+        (Rims::Fold, 0.1, 2),
+        (Rims::Fold, 0.08, 2),
+        (Rims::FoldLittle, 1e-3, 2),
+        (Rims::Keep, 0.08, 2),
+        (Rims::Fold, 8e-7, 1),
+        (Rims::Keep, 8e-7, 1),
+    ] {
         let (mut nodes, slave) = line(&[0.0, 1.0], false, 0);
         nodes.extend([-0.5, 0.5].map(|side| [0.5 + side * width, 0.0, 0.0]));
         let found = pair(2, &nodes, [&slave, &[vec![3, 2]]], &with_rims(rims)).unwrap();

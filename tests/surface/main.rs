@@ -28,6 +28,7 @@ mod resultants;
 mod rounded_mids;
 mod rows;
 mod sectors;
+mod small_patches;
 mod steps;
 mod symmetry;
 mod tangents;

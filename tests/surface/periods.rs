@@ -15,7 +15,7 @@ fn place([x, y, z]: [f64; 3]) -> [f64; 3] {
 const PERIODS: [[f64; 3]; 2] = [[1.0, 0.2, 0.1], [0.15, 1.0, 0.0]];
 const NONE: [f64; 3] = [0.0; 3];
 
-/// Copies on each side of the part. Rows depend on nodes up to five faces away, and the part has four.
+/// Copies on each side of the part. Rows depend on nodes up to eight faces away, and the part has four.
 const COPIES: i32 = 2;
 
 /// A number of a node that all of its images have: that of its place in the part, of the slave's side or the master's.
