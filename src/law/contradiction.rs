@@ -7,8 +7,9 @@
 
 use crate::problem::{ContactProblem, FrictionLaw, Law, Relation};
 
-/// Part of the sum's terms by which it must be negative: rounding of the forces is far below.
-const LEAST: f64 = 1e-6;
+/// Part of the largest force that a force must have to count, and of the sum's terms by which it must be negative: rounding of
+/// the forces is far below.
+pub const COUNTS: f64 = 1e-6;
 
 /// The forces of a pattern whose work the law bounds: pressing normal forces, and all forces of ties. Other components are zero.
 pub fn bounded<R: Relation>(problem: &ContactProblem<'_, R>, pattern: &[f64]) -> Vec<f64> {
@@ -36,7 +37,7 @@ pub fn exceed_gaps<R: Relation>(
     let (sum, size) = works
         .map(|(i, (force, offset))| -force * (prescribed(i) - offset))
         .fold((0.0, 0.0), |(sum, size), term| (sum + term, size + term.abs()));
-    sum < -LEAST * size
+    sum < -COUNTS * size
 }
 
 /// Copies the problem without its friction.

@@ -63,7 +63,8 @@ pub use assembly::{Assembly, Image, Unknown};
 pub use bound::{Bound, length};
 pub use contact::{Contact, references, scale_roots};
 pub use contradiction::{
-    bounded, exceed_gaps, first_open_tie, first_penetration, first_tension, without_friction,
+    COUNTS, bounded, exceed_gaps, first_open_tie, first_penetration, first_tension,
+    without_friction,
 };
 pub use ellipse::{Ellipse, Plane, Rule};
 pub(crate) use enclosed_piece::{EnclosedPiece, Local};

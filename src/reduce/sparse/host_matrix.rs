@@ -9,9 +9,6 @@ use crate::linalg::sparse_matrix::{
 use crate::linalg::tolerances::AGREES;
 use crate::reduce::probes::refuse;
 
-/// Entries up to this one make sums of a hundred that are doubles.
-const LARGEST_ENTRY: f64 = 1e306;
-
 impl SparseMatrix<'_> {
     /// Checks the arrays' lengths and `col_start`. What else is wrong, a model finds.
     ///
@@ -98,7 +95,9 @@ impl SparseMatrix<'_> {
                 if !self.values[k].is_finite() {
                     return refuse(entry(name, [i, j]) + " is not finite");
                 }
-                if self.values[k].abs() > LARGEST_ENTRY {
+                // Sums of a hundred such entries are doubles.
+                let largest = f64::MAX / 100.0;
+                if self.values[k].abs() > largest {
                     return refuse(messages::too_large((name, i, j), self.values[k]));
                 }
                 let in_place = match self.triangle {

@@ -1,7 +1,7 @@
 //! Contact forces that grow without end, and what they show.
 
 use crate::error::{MOST_NAMED, index};
-use crate::law::{bounded, exceed_gaps};
+use crate::law::{COUNTS, bounded, exceed_gaps};
 use crate::linalg::vector::{norm, norm_inf};
 use crate::problem::{ContactProblem, Redundant};
 
@@ -13,9 +13,6 @@ pub const ENOUGH: usize = 8;
 /// Forces added by two rounds are the same if they differ by less than this part: rounds that still tend to
 /// something at such a rate would take thousands.
 const SAME: f64 = 1e-4;
-
-/// Part of the largest force of a pattern that a force must have to count.
-const COUNTS: f64 = 1e-6;
 
 /// True if forces grow by the same pattern round by round.
 #[derive(Default)]
