@@ -533,28 +533,35 @@ int32_t signorini_surface_resultant(const signorini_surface_pairs *contact, cons
  */
 struct signorini_penetration {
     uint32_t struct_size; /**< sizeof(signorini_penetration). */
-    /** Number of slave nodes and of middles of slave faces that have passed through; 0: none. */
+    /**
+     * Number of slave nodes and of middles of slave faces that have passed through, and of nodes
+     * of the master through other slave faces; 0: none.
+     */
     int32_t points;
     /**
-     * How deep the deepest is, along the slave's normal before the motion; of an obstacle that is a
-     * shape its distance from the shape; length.
+     * How deep the deepest is, along its normal before the motion; of an obstacle that is a shape
+     * its distance from the shape; length.
      */
     double depth;
     double point[3];      /**< Where it is, moved; in 2D the third entry is 0. */
-    int64_t face;         /**< Its slave face. */
-    int64_t node;         /**< Its slave node; -1: it is the middle of the face. */
+    int64_t face; /**< Its slave face, or that which a node of the master has passed through. */
+    /** Its node, of either side; -1: the middle of the face, or a node of a rigid mesh. */
+    int64_t node;
     /** The master face that it has passed through; -1 of an obstacle that is a shape. */
     int64_t master_face;
 };
 
 /**
  * Checks after a solution if parts of the slave's surface have passed through the master or the
- * obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie over
- * the master, and all of whose nodes have pairs, are left to these and not looked at; where some
- * nodes of a face have pairs, these may pass by a tenth of its size. What overlaps before the
- * motion has not passed through by it, and is not counted: data.beyond has the faces that do, by
- * more than was looked at. A clearance of the settings stands between the surfaces here too. A
- * point that has passed through the whole of a shape, as a bar, and is outside again is not found.
+ * obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie
+ * wholly over the master, and all of whose nodes have pairs, are left to these and not looked
+ * at; where some nodes of a face have pairs, or are folded, these may pass by a tenth of its
+ * size. Nodes of a master that come to lie over the faces that are looked at are looked at too;
+ * where some nodes of the slave face have pairs, they may pass by a tenth of the size of the
+ * smaller face. What overlaps before the motion has not passed through by it, and is not
+ * counted: data.beyond has the faces that do, by more than was looked at. A clearance of the
+ * settings stands between the surfaces here too. A point that has passed through the whole of a
+ * shape, as a bar, and is outside again is not found.
  *
  * @param contact      the pairs of one zone, as they were made
  * @param u            displacements of all your degrees of freedom, as signorini_model_recover

@@ -194,28 +194,32 @@ pub(super) fn scatter<T>(nodes: &[usize], values: &[T], mut put: impl FnMut(usiz
 pub struct SignoriniPenetration {
     /// sizeof(signorini_penetration).
     pub struct_size: u32,
-    /// Number of slave nodes and of middles of slave faces that have passed through; 0: none.
+    /// Number of slave nodes and of middles of slave faces that have passed through, and of nodes
+    /// of the master through other slave faces; 0: none.
     pub points: i32,
-    /// How deep the deepest is, along the slave's normal before the motion; of an obstacle that is a
-    /// shape its distance from the shape; length.
+    /// How deep the deepest is, along its normal before the motion; of an obstacle that is a shape
+    /// its distance from the shape; length.
     pub depth: f64,
     /// Where it is, moved; in 2D the third entry is 0.
     pub point: [f64; 3],
-    /// Its slave face.
+    /// Its slave face, or that which a node of the master has passed through.
     pub face: i64,
-    /// Its slave node; -1: it is the middle of the face.
+    /// Its node, of either side; -1: the middle of the face, or a node of a rigid mesh.
     pub node: i64,
     /// The master face that it has passed through; -1 of an obstacle that is a shape.
     pub master_face: i64,
 }
 
 /// Checks after a solution if parts of the slave's surface have passed through the master or the
-/// obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie over
-/// the master, and all of whose nodes have pairs, are left to these and not looked at; where some
-/// nodes of a face have pairs, these may pass by a tenth of its size. What overlaps before the
-/// motion has not passed through by it, and is not counted: data.beyond has the faces that do, by
-/// more than was looked at. A clearance of the settings stands between the surfaces here too. A
-/// point that has passed through the whole of a shape, as a bar, and is outside again is not found.
+/// obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie
+/// wholly over the master, and all of whose nodes have pairs, are left to these and not looked
+/// at; where some nodes of a face have pairs, or are folded, these may pass by a tenth of its
+/// size. Nodes of a master that come to lie over the faces that are looked at are looked at too;
+/// where some nodes of the slave face have pairs, they may pass by a tenth of the size of the
+/// smaller face. What overlaps before the motion has not passed through by it, and is not
+/// counted: data.beyond has the faces that do, by more than was looked at. A clearance of the
+/// settings stands between the surfaces here too. A point that has passed through the whole of a
+/// shape, as a bar, and is outside again is not found.
 ///
 /// @param contact      the pairs of one zone, as they were made
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover

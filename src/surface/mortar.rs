@@ -65,8 +65,9 @@ pub(super) fn pairs<'a>(
     for at in 0..slave.count() {
         watch.step()?;
         let cover = search.cover(at, &slave.face(at), watch)?;
-        if cover.0.is_none() {
-            report.uncovered_faces.push(at);
+        match &cover {
+            (None, _) => report.uncovered_faces.push(at),
+            (_, wholly) => report.faces_at_rims.extend((!wholly).then_some(at)),
         }
         report.distances.push(cover.0.as_ref().map_or(NOWHERE, |covered| covered.range));
         faces.push(cover);

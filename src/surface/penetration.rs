@@ -6,6 +6,9 @@
 //! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
 //! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
 //!
+//! A slave face that reaches over the rim of its master, or is larger than it, may have none of its points over the master. So
+//! nodes of the master are asked too, by their own normals, if they come to lie over slave faces that pairs do not hold wholly.
+//!
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
 
@@ -19,7 +22,7 @@ use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::Local;
 use super::surfaces::{Faces, Master, Surfaces};
-use super::sweep::Hull;
+use super::sweep::{Bounds, Hull};
 use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
@@ -54,15 +57,16 @@ enum KeptMaster {
 /// How far the slave has passed through the master.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Penetration {
-    /// Number of slave nodes and of middles of slave faces that have passed through.
+    /// Number of slave nodes and of middles of slave faces that have passed through, and of nodes of the master that have through
+    /// faces no point of which has.
     pub count: usize,
-    /// How deep the deepest is, along the slave's normal before the motion; its distance from a rigid shape.
+    /// How deep the deepest is, along its normal before the motion; its distance from a rigid shape.
     pub depth: f64,
     /// Where it is, moved.
     pub point: [f64; 3],
-    /// Its slave face.
+    /// Its slave face, or that which a node of the master has passed through.
     pub face: usize,
-    /// Its slave node; `None`: the middle of the face.
+    /// Its node, of the slave or of the master; `None`: the middle of the face, or a node of a rigid mesh.
     pub node: Option<usize>,
     /// The master face; `None` of a shape.
     pub master: Option<usize>,
@@ -75,6 +79,9 @@ struct Held {
     uncovered: Vec<bool>,
     asked: Vec<usize>,
 }
+
+/// A point of a side before and after the motion, and its normal before.
+type Point = ([Vector3; 2], Vector3);
 
 impl KeptSurfaces {
     /// Keeps surfaces that have been paired with a clearance, which stands between them, as half the thicknesses of shells do if
@@ -107,7 +114,7 @@ impl KeptSurfaces {
     }
 
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
-    /// Faces that are covered, and all of whose nodes have pairs, are left to these.
+    /// Faces that are covered wholly, and all of whose nodes have pairs of their own, are left to these.
     /// `pairs` are those of these surfaces.
     ///
     /// # Errors
@@ -132,15 +139,25 @@ impl KeptSurfaces {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| -shape.facing(x).0 - self.clearance;
-                self.deepest(held, &slaves, watch, |faces, at, least| {
+                let through = |faces: [&Face<'_>; 2], at, least| {
                     let [before, now] = faces.map(|face| depth(face.position(at)));
                     (before <= least).then_some((now, None))
-                })
+                };
+                Ok(self.deepest(held, &slaves, watch, through)?.0)
             }
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
                 let masters = self.before_and_after("master", &moved, lists)?;
-                self.through_faces(held, [&slaves, &masters], watch)
+                let (found, told) = self.through_faces(held, [&slaves, &masters], watch)?;
+                let asked = |at: &usize| &self.slave[1][self.slave[0][*at]..self.slave[0][at + 1]];
+                let lists =
+                    held.asked.iter().map(asked).fold([vec![0], vec![]], |mut lists, face| {
+                        lists[1].extend(face);
+                        lists[0].push(lists[1].len());
+                        lists
+                    });
+                let asked = self.before_and_after("slave", &moved, &lists)?;
+                self.masters_through((held, told), [&asked, &masters], found, watch)
             }
         }
     }
@@ -158,64 +175,135 @@ impl KeptSurfaces {
 
     fn held(&self, pairs: &SurfacePairs) -> Held {
         let [start, places] = &self.slave;
-        let (mut nodes, mut uncovered) =
-            (vec![false; self.nodes.len()], vec![false; start.len() - 1]);
-        let folded = pairs.report.folded.iter().map(|fold| fold.node);
-        for node in pairs.pairs.iter().map(|pair| pair.slave).chain(folded) {
-            let place = self.nodes.binary_search(&node);
-            place.into_iter().for_each(|place| nodes[place] = true);
-        }
-        for (second, first, _) in pairs.images.on_second() {
-            let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
-            second.into_iter().zip(first).for_each(|(second, first)| nodes[second] = nodes[first]);
-        }
-        pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
-        let of_pairs = |at: &usize| {
-            let mut places = places[start[*at]..start[at + 1]].iter();
-            !uncovered[*at] && places.all(|&place| nodes[place])
+        let marked = |nodes: &mut dyn Iterator<Item = usize>| {
+            let mut marks = vec![false; self.nodes.len()];
+            let places = nodes.flat_map(|node| self.nodes.binary_search(&node));
+            places.for_each(|place| marks[place] = true);
+            for (second, first, _) in pairs.images.on_second() {
+                let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
+                let both = second.into_iter().zip(first);
+                both.for_each(|(second, first)| marks[second] = marks[first]);
+            }
+            marks
         };
-        let asked = (0..uncovered.len()).filter(|at| !of_pairs(at)).collect();
+        let paired = marked(&mut pairs.pairs.iter().map(|pair| pair.slave));
+        let folded = marked(&mut pairs.report.folded.iter().map(|fold| fold.node));
+        let [mut uncovered, mut asked] = [(); 2].map(|()| vec![false; start.len() - 1]);
+        pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
+        let in_part = pairs.report.uncovered_faces.iter().chain(&pairs.report.faces_at_rims);
+        in_part.for_each(|&at| asked[at] = true);
+        let of_pairs =
+            |at: usize| places[start[at]..start[at + 1]].iter().all(|&place| paired[place]);
+        let asked = (0..asked.len()).filter(|&at| asked[at] || !of_pairs(at)).collect();
+        let nodes =
+            paired.into_iter().zip(folded).map(|(paired, folded)| paired || folded).collect();
         Held { nodes, uncovered, asked }
     }
 
+    /// What has passed through of the slave, and the slave faces of which a point has.
     fn through_faces(
         &self,
         held: &Held,
-        [slaves, [before, after]]: [&[Side<'_>; 2]; 2],
+        [slaves, masters]: [&[Side<'_>; 2]; 2],
         watch: &mut Watch<'_, '_>,
-    ) -> Result<Penetration, Error> {
-        let opposite = SearchFaces::new(after, watch)?;
+    ) -> Result<(Penetration, HashSet<usize>), Error> {
+        let opposite = SearchFaces::new(&masters[1], watch)?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
-        let bounds = asked.chain(opposite.tree.bounds()).reduce(|a, b| a.with(&b));
-        let span = bounds.map_or(0.0, |all| all.diagonal());
-        let reach = Reach { overlap: span, open: 0.0, layer: span };
-        let mut candidates = Candidates::new(opposite, reach, span);
+        let mut candidates = Self::candidates(opposite, asked);
         self.deepest(held, slaves, watch, |[first, face], at, least| {
             let normal = first.normal(at);
-            let [x, origin] = [face, first].map(|face| face.position(at) - self.clearance * normal);
-            let plane = Plane::new(self.dim, x, normal);
-            let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
-                let flat = plane.flatten(&after.face(at));
-                let local = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local))?;
-                let apart = before.face(at).position(local) - origin;
-                let was_before = normal.dot(&apart) >= -least;
-                let depth = -flat.height(local);
-                (was_before && depth > least).then_some((depth, Some(at)))
-            });
-            behind.min_by(|a, b| a.0.total_cmp(&b.0))
+            let point = ([first, face].map(|face| face.position(at)), normal);
+            let x = point.0[1] - self.clearance * normal;
+            let behind = self.behind(point, masters, candidates.of_point(x, normal), |_| least)?;
+            Some((behind.0, Some(behind.1)))
         })
     }
 
+    /// The search for faces behind others, however deep.
+    fn candidates<'s>(
+        opposite: SearchFaces<'s>,
+        asked: impl Iterator<Item = Bounds>,
+    ) -> Candidates<'s> {
+        let bounds = asked.chain(opposite.tree.bounds()).reduce(|a, b| a.with(&b));
+        let span = bounds.map_or(0.0, |all| all.diagonal());
+        Candidates::new(opposite, Reach { overlap: span, open: 0.0, layer: span }, span)
+    }
+
+    /// The nearest of some faces that a point has passed through, with its depth. `least` tells the least depth that counts.
+    fn behind(
+        &self,
+        (point, normal): Point,
+        [before, after]: &[Side<'_>; 2],
+        near: &[usize],
+        least: impl Fn(usize) -> f64,
+    ) -> Option<(f64, usize)> {
+        let [origin, x] = point.map(|x| x - self.clearance * normal);
+        let plane = Plane::new(self.dim, x, normal);
+        let behind = near.iter().filter_map(|&at| {
+            let flat = plane.flatten(&after.face(at));
+            let local = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local))?;
+            let apart = before.face(at).position(local) - origin;
+            let (depth, least) = (-flat.height(local), least(at));
+            (normal.dot(&apart) >= -least && depth > least).then_some((depth, at))
+        });
+        behind.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Adds nodes of the master that have passed through slave faces, those that are asked, to what is found of the slave: they
+    /// count if their face is not told yet.
+    fn masters_through(
+        &self,
+        (held, told): (&Held, HashSet<usize>),
+        [slaves, masters]: [&[Side<'_>; 2]; 2],
+        mut found: Penetration,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Penetration, Error> {
+        let opposite = SearchFaces::new(&slaves[1], watch)?;
+        let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
+        let mut counted = HashSet::new();
+        for of_master in 0..masters[1].count() {
+            watch.goes_on()?;
+            let faces = [0, 1].map(|moved| masters[moved].face(of_master));
+            let normal = faces[0].middle_normal();
+            let near = candidates.of_face(&faces[1], normal);
+            if near.is_empty() {
+                continue;
+            }
+            let size = faces[0].size();
+            let least = |at: usize| {
+                let face = slaves[0].face(at);
+                // A node that stands at the end of a face that it is paired with may slide to the next one.
+                let is_held = face.nodes.iter().any(|place| held.nodes[*place]);
+                size.min(face.size()) * if is_held { LEAST_OF_PAIRED } else { LEAST }
+            };
+            for (corner, &place) in faces[0].nodes.iter().enumerate() {
+                let point = [0, 1].map(|moved| faces[moved].x[corner]);
+                let Some((depth, at)) = self.behind((point, normal), slaves, near, least) else {
+                    continue;
+                };
+                let face = held.asked[at];
+                found.count += usize::from(!told.contains(&face) && counted.insert(place));
+                if depth > found.depth {
+                    let (point, node) = (point[1].into(), self.nodes.get(place).copied());
+                    let master = Some(of_master);
+                    found = Penetration { depth, point, face, node, master, ..found };
+                }
+            }
+        }
+        Ok(found)
+    }
+
     /// The deepest of all points of the faces that are asked. `through` tells its depth with the master face, of both faces, the
-    /// place on them and the least depth that counts.
+    /// place on them and the least depth that counts. The faces with such points are told too.
     fn deepest(
         &self,
         held: &Held,
         [before, after]: &[Side<'_>; 2],
         watch: &mut Watch<'_, '_>,
         mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
-    ) -> Result<Penetration, Error> {
+    ) -> Result<(Penetration, HashSet<usize>), Error> {
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
+        let mut told = HashSet::new();
         for &at in &held.asked {
             watch.goes_on()?;
             let faces = [before.face(at), after.face(at)];
@@ -232,6 +320,7 @@ impl KeptSurfaces {
                 let Some((depth, master)) = passed.filter(|(depth, _)| *depth > least) else {
                     continue;
                 };
+                told.insert(at);
                 found.count += usize::from(node.is_none_or(|node| counted.insert(node)));
                 if depth > found.depth {
                     let point = faces[1].position(local).into();
@@ -239,6 +328,6 @@ impl KeptSurfaces {
                 }
             }
         }
-        Ok(found)
+        Ok((found, told))
     }
 }

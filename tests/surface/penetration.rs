@@ -1,7 +1,7 @@
 //! The check after a solution: a cantilever that bends through what it is not paired with.
 
 use crate::common::mesh::{Mesh, steps};
-use crate::surfaces::{flat, unlimited};
+use crate::surfaces::{flat, line, steps as equal, unlimited};
 use signorini::reduce::ContactPairs;
 use signorini::surface::{
     Faces, KeptSurfaces, Master, Obstacle, Penetration, SurfacePairs, SurfaceSettings, Surfaces,
@@ -221,6 +221,81 @@ fn a_clearance_stands_between_surfaces() {
             // Rounding of numbers of size one.
             assert!((passed.depth - depth).abs() < 1e-15, "{context}");
             assert_eq!(passed.count, if depth > 0.0 { 3 } else { 0 }, "{context}");
+        }
+    }
+}
+
+/// A slave line and a master line, paired within a distance, and what has passed through after displacements along y.
+fn after(
+    [slave, master]: [(&[f64], f64, bool); 2],
+    search_distance: f64,
+    u: impl Fn(bool, f64) -> f64,
+) -> Penetration {
+    let (mut nodes, mut faces) = (Vec::new(), Vec::new());
+    for (x, height, is_below) in [slave, master] {
+        let (places, mut list) = line(x, false, nodes.len());
+        nodes.extend(places.into_iter().map(|[x, ..]| [x, height]));
+        list.iter_mut().filter(|_| is_below).for_each(|face| face.reverse());
+        faces.push(flat(&list));
+    }
+    let [(start, of_slave), (of_start, of_master)] = &faces[..] else { unreachable!() };
+    let slaves = Faces { start, nodes: of_slave };
+    let masters = Master::Faces(Faces { start: of_start, nodes: of_master });
+    let coordinates = &nodes.concat();
+    let surfaces = Surfaces { dim: 2, coordinates, slave: slaves, master: masters };
+    let settings =
+        SurfaceSettings { search_distance: Some(search_distance), ..SurfaceSettings::default() };
+    let found = pair_surfaces(&surfaces, &settings, &mut unlimited()).unwrap();
+    let moved = |node: usize, axis: usize| match axis {
+        1 => u(node < slave.0.len(), nodes[node][0]),
+        _ => 0.0,
+    };
+    let kept = KeptSurfaces::new(&surfaces, 0.0);
+    kept.penetration(&found, moved, &mut unlimited()).unwrap()
+}
+
+/// The ground is the slave and reaches beyond the beam: the tip is over a face that is covered in part, between its nodes. It is
+/// told with its depth at every size of faces, if it is deeper than a tenth of an element of the beam, by which pairs may let
+/// it pass.
+#[test]
+fn a_tip_over_a_face_at_the_rim_is_told() {
+    let beam = equal(0.0, LENGTH, 20);
+    for (faces, end) in [1, 2, 3, 5, 7].into_iter().flat_map(|n| [20.5, 22.0, 26.0].map(|e| (n, e)))
+    {
+        let ground = equal(10.0, end, faces);
+        let tip_after = |tip: f64| {
+            let sides = [(&ground[..], 0.0, true), (&beam[..], GAP, false)];
+            after(sides, 8.0, |is_ground, x| if is_ground { 0.0 } else { bend(x, tip) })
+        };
+        let context = format!("{faces}, {end}");
+        assert_eq!(tip_after(GAP), Penetration::default(), "{context}");
+        let found = tip_after(GAP + 1.5);
+        assert!((found.depth - 1.5).abs() < 1e-12, "{context}: {found:?}");
+        assert_eq!(found.node, Some(ground.len() + 20), "{context}: {found:?}");
+        let over = (0..faces).find(|at| ground[at + 1] > LENGTH).unwrap();
+        assert_eq!((found.face, found.master), (over, Some(19)), "{context}: {found:?}");
+        assert!(found.count > 0 && found.point[1] == GAP + bend(LENGTH, GAP + 1.5), "{found:?}");
+    }
+}
+
+/// A post that is narrower than half a face, between the nodes and the middle of it, passes into a beam without pairs.
+#[test]
+fn a_post_between_the_points_of_a_face_is_told() {
+    let (beam, post) = (equal(0.0, LENGTH, 2), [13.1, 13.6]);
+    for tip in [9.0, 12.0, 15.0] {
+        let sides = [(&beam[..], GAP, false), (&post[..], 0.0, true)];
+        let found = after(sides, 1.0, |is_beam, x| if is_beam { bend(x, tip) } else { 0.0 });
+        // The face is straight between its nodes at half of the length and at its end.
+        let height = |x: f64| {
+            let part = (x - 10.0) / 10.0;
+            GAP + (1.0 - part) * bend(10.0, tip) + part * bend(LENGTH, tip)
+        };
+        let depths = post.map(|x| -height(x));
+        assert_eq!(found.count, depths.iter().filter(|depth| **depth > 0.0).count(), "{found:?}");
+        let deepest = depths[1].max(0.0);
+        assert!((found.depth - deepest).abs() < 1e-12, "{tip}: {found:?}, {deepest}");
+        if deepest > 0.0 {
+            assert_eq!((found.node, found.face, found.master), (Some(4), 1, Some(0)), "{found:?}");
         }
     }
 }

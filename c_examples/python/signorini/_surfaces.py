@@ -73,9 +73,10 @@ what friction takes in the step.  pressed_area: of the pairs that press.
 Penetration = namedtuple("Penetration", "points depth point face node master_face sentence")
 Penetration.__doc__ = """What has passed through the other side without a pair; the deepest point of it.
 
-points: number of slave nodes and of middles of slave faces that have.  depth: along the slave's normal,
-of a rigid shape its distance from the shape.
-point: where, moved, (3,).  face: its slave face.  node: its slave node; -1: the middle of the face.
+points: number of slave nodes and of middles of slave faces that have, and of nodes of the master through other slave
+faces.  depth: along its normal, of a rigid shape its distance from the shape.
+point: where, moved, (3,).  face: its slave face, or that which a node of the master has passed through.  node: of either
+side; -1: the middle of the face, or a node of a rigid mesh.
 master_face: the face that it has passed through; -1: a shape.  sentence: the same in words.
 """
 
@@ -353,7 +354,7 @@ class SurfacePairs(Remade):
         if not found.points:
             return None
         place = ", ".join(f"{x:.6g}" for x in found.point[:self.dim])
-        what = f"node {found.node}" if found.node >= 0 else f"the middle of slave face {found.face}"
+        what = f"node {found.node}" if found.node >= 0 else f"a point of slave face {found.face}"
         through = f"master face {found.master_face}" if found.master_face >= 0 else "the obstacle"
         sentence = (
             f"{found.points} slave nodes and middles of slave faces have passed through the other side without a "
