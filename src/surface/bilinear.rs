@@ -64,6 +64,9 @@ impl Bilinear {
         let from = [p[0] - self.x[0][0], p[1] - self.x[1][0]];
         let [[a, b], [c, d]] = self.inverse;
         let (s, t) = (a * from[0] + b * from[1], c * from[0] + d * from[1]);
+        if self.bend == [0.0; 2] {
+            return (s.is_finite() && t.is_finite()).then_some([s, t]);
+        }
         let (along, across) = (self.bend[0] * t, self.bend[1] * s);
         let skew = across - along;
         let square = (1.0 + skew) * (1.0 + skew) + 4.0 * along;
@@ -85,14 +88,18 @@ impl Bilinear {
 
     /// The place in the plane.
     pub(super) fn place(&self, at: Local) -> Point {
-        let [x, ..] = self.at(at);
-        [x.x, x.y]
+        let [s, t] = at;
+        [0, 1].map(|c| {
+            let [c0, c1, c2, c3] = self.x[c];
+            c0 + c1 * s + (c2 + c3 * s) * t
+        })
     }
 
     /// The area of a unit of local coordinates in the plane; negative of a face that is turned over.
+    #[inline]
     pub(super) fn area(&self, at: Local) -> f64 {
-        let [_, a, b] = self.at(at);
-        a.x * b.y - a.y * b.x
+        let [[_, x1, x2, _], [_, y1, y2, _], _] = self.x;
+        (x1 * y2 - x2 * y1) * (1.0 + self.bend[1] * at[0] + self.bend[0] * at[1])
     }
 
     /// The change of both derivatives with the other coordinate.

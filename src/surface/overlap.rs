@@ -50,11 +50,13 @@ pub(super) struct Meeting {
 pub(super) struct SlaveFace<'a> {
     plane: Plane,
     flat: Flat<'a>,
-    /// The face with straight edges on which this one and its masters are compared: that of the corners, or, if they span none,
-    /// local coordinates.
+    /// The face with straight edges on which this one and its masters are compared: that of the corners, or, if they span none or
+    /// the mid nodes bend it by more, local coordinates, which take less time.
     straight: Bilinear,
     /// How far the face is from that one, as a distortion.
     bending: f64,
+    /// Degrees that its own integrals ask for beyond those of its functions.
+    further: usize,
     outline: Vec<Point>,
     /// A convex polygon around a curved face in the plane.
     around: Option<Vec<Point>>,
@@ -100,31 +102,36 @@ pub(super) struct Overlaps {
 #[derive(Debug)]
 pub(super) struct NotFound;
 
+/// The terms of a series of powers of this ratio down to what is left.
+fn terms(ratio: f64, left: f64) -> usize {
+    (left.ln() / ratio.ln()).ceil() as usize
+}
+
+/// The degrees that a distortion asks for.
+fn of_distortion(distortion: f64, left: f64) -> usize {
+    if distortion > ON_EDGE { terms(0.5 * distortion, left) - 1 } else { 0 }
+}
+
 impl<'a> SlaveFace<'a> {
     /// The face with the unit normal in its middle.
     pub(super) fn new(face: &Face<'a>, normal: Vector3) -> SlaveFace<'a> {
         let plane = Plane::new(face.kind.dim(), face.position(face.kind.centre()), normal);
         let flat = plane.flatten(face);
         let around = flat.is_curved().then(|| flat.around(AROUND));
-        let (straight, bending) = match around.is_none() || flat.corners.distortion() < FOLDED {
-            true => (flat.corners, flat.bending()),
+        let (of_corners, bending) = (flat.corners.distortion(), flat.bending());
+        let are_bent_more = of_corners > bending && of_corners < FOLDED;
+        let (straight, bending) = match around.is_none() || are_bent_more {
+            true => (flat.corners, bending),
             false => (Bilinear::LOCAL, flat.distortion()),
         };
         let corners = &face.kind.places()[..face.kind.corners()];
         let mut own: Vec<Point> = corners.iter().map(|at| straight.place(*at)).collect();
         turn_left(&mut own);
         let area = measure(&own);
-        SlaveFace {
-            plane,
-            flat,
-            straight,
-            bending,
-            outline: own,
-            around,
-            area,
-            face: face.clone(),
-            of_gaps: 0,
-        }
+        // A curved face's own integrals are those of its loads, whatever its edges leave to neighbours.
+        let further = around.as_ref().map_or(0, |_| of_distortion(straight.distortion(), LEFT));
+        let (outline, face, of_gaps) = (own, face.clone(), 0);
+        SlaveFace { plane, flat, straight, bending, further, outline, around, area, face, of_gaps }
     }
 
     /// The face with points for gaps that have this degree beyond those of faces.
@@ -214,20 +221,13 @@ impl<'a> SlaveFace<'a> {
     /// distance `1 / e` from the middle, so that what is neglected falls by `2 / e` with each degree. The
     /// area of a face whose warp adds the slope `w` has terms `w^2k` of the degree `2 k`.
     fn further_degrees(&self, master: &Flat<'_>) -> Option<usize> {
-        let terms = |ratio: f64, left: f64| (left.ln() / ratio.ln()).ceil() as usize;
         let distortion = self.flat.distortion().max(master.distortion());
         let warp = self.flat.warp();
         if !(distortion < FOLDED && warp < FOLDED) {
             return None;
         }
         let of_edges = OF_SAG * self.flat.sag().max(master.sag());
-        let of = |distortion: f64, left: f64| match distortion > ON_EDGE {
-            true => terms(0.5 * distortion, left) - 1,
-            false => 0,
-        };
-        // The slave's own integrals are those of its loads, whatever its edges leave to neighbours.
-        let own = of(self.straight.distortion(), LEFT);
-        let of_distortion = own.max(of(distortion, LEFT.max(of_edges)));
+        let of_distortion = self.further.max(of_distortion(distortion, LEFT.max(of_edges)));
         let of_warp = match warp > ON_EDGE {
             true => 2 * (terms(warp * warp, LEFT.max(of_edges)) - 1),
             false => 0,

@@ -184,7 +184,8 @@ fn overlapping_and_rough(
         let rounding = ROUNDING_OF_SUM * face.size();
         let overlaps = overlap > rounding;
         // Gaps that were closed do not vary.
-        let is_closed = [least, most] == [settings.gap(0.0); 2];
+        let closed = settings.gap(0.0);
+        let is_closed = least == closed && most == closed;
         let within = found.report.distances.get(at).filter(|_| !is_closed);
         let is_rough_within = within.is_some_and(|range| {
             let [low, high] = range.map(|distance| settings.gap(distance));
