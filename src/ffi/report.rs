@@ -173,6 +173,7 @@ impl SignoriniReport {
         let (first_method, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
             eta: solution.eta,
+            rounding: solution.rounding,
             iterations: solution.iterations as i64,
             refactorisations: solution.refactorisations as i64,
             factorisations: solution.factorisations as i64,

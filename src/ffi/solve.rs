@@ -100,8 +100,8 @@ pub extern "C" fn signorini_solve_memory(n: i64) -> i64 {
 /// Solves a linear complementarity problem (LCP): w = q + M z, w >= 0, z >= 0, w . z = 0.
 ///
 /// With SIGNORINI_METHOD_AUTO the problem is solved if M is positive definite or a P-matrix, and
-/// solved or proved to have no solution (SIGNORINI_STATUS_NO_EQUILIBRIUM) if M is positive
-/// semi-definite or copositive-plus. With any other M the call may also end in a ray that proves
+/// solved or proved infeasible (SIGNORINI_STATUS_NO_EQUILIBRIUM) if positive semi-definite or
+/// copositive-plus, to condition numbers of 1e10. Any other M may also end in a ray that proves
 /// nothing (SIGNORINI_STATUS_STALLED).
 ///
 /// @param n         number of unknowns, 0 allowed

@@ -1,6 +1,8 @@
 //! Scaling by powers of two, which is exact: how sums of products are taken whose terms would overflow or
 //! underflow as they are.
 
+use super::double_double::{two_product, two_sum};
+
 /// Largest exponent that one multiplication carries; those of doubles lie between −1074 and 1023.
 const STEP: i32 = 1000;
 
@@ -29,18 +31,32 @@ pub fn times_power_of_two(mut x: f64, mut e: i32) -> f64 {
     x * 2_f64.powi(e.clamp(-STEP, STEP))
 }
 
-/// Inner product of finite vectors and the sum of the sizes of its terms, in a unit of their own: the largest
-/// term is between 1 and 4, so that no term that counts overflows or underflows.
-pub fn dot_in_own_unit(a: &[f64], b: &[f64]) -> (f64, f64) {
-    let terms = || a.iter().zip(b).filter(|(a, b)| **a != 0.0 && **b != 0.0);
-    let sizes = terms().map(|(&a, &b)| exponent(a) + exponent(b));
+/// An inner product in a unit of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnUnit {
+    /// The sum, times `2^-unit`.
+    pub sum: f64,
+    /// The sum of the sizes of its terms, times `2^-unit`.
+    pub terms: f64,
+    /// The exponent of two of the unit.
+    pub unit: i32,
+}
+
+/// Sum of the products of pairs of finite numbers, in twice the precision, rounded once, and the sum of the sizes of its
+/// terms, in a unit of their own: the largest term is between 1 and 4, so that no term that counts overflows or
+/// underflows.
+pub fn dot_in_own_unit(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> OwnUnit {
+    let products = pairs.filter(|(a, b)| *a != 0.0 && *b != 0.0);
+    let sizes = products.clone().map(|(a, b)| exponent(a) + exponent(b));
     let unit = sizes.max().unwrap_or(0);
-    let (mut sum, mut size) = (0.0, 0.0);
-    for (&a, &b) in terms() {
+    let (mut sum, mut low, mut terms) = (0.0, 0.0, 0.0);
+    for (a, b) in products {
         let (e, f) = (exponent(a), exponent(b));
-        let mantissas = times_power_of_two(a, -e) * times_power_of_two(b, -f);
-        let term = times_power_of_two(mantissas, e + f - unit);
-        (sum, size) = (sum + term, size + term.abs());
+        let (product, error) = two_product(times_power_of_two(a, -e), times_power_of_two(b, -f));
+        let term = times_power_of_two(product, e + f - unit);
+        let (next, lost) = two_sum(sum, term);
+        (sum, low) = (next, low + (lost + times_power_of_two(error, e + f - unit)));
+        terms += term.abs();
     }
-    (sum, size)
+    OwnUnit { sum: sum + low, terms, unit }
 }

@@ -65,12 +65,19 @@ impl Bare {
                 if (0..self.n).any(|i| w[i] != 0.0 && z[i] != 0.0) {
                     return Some("not complementary".into());
                 }
-                let product: Vec<f64> = (0..self.n).map(|i| dot(&self.row(i), z)).collect();
                 // The tolerance is on min(w, m z) with w = q + M z; the returned w is cut off by
-                // that much at most. Twice, as the rounding of M z is counted here again.
-                let error: Vec<f64> = (0..self.n).map(|i| self.q[i] + product[i] - w[i]).collect();
-                let scale = norm(&self.q).max(norm(&product));
-                let excess = norm(&error) > 2.0 * tolerance * scale;
+                // that much at most. Twice, as norms are; and the rounding of sums here.
+                let mut rounding = vec![0.0; self.n];
+                let mut error = vec![0.0; self.n];
+                for i in 0..self.n {
+                    let row = self.row(i);
+                    let low =
+                        if solution.z_low.is_empty() { 0.0 } else { dot(&row, &solution.z_low) };
+                    error[i] = self.q[i] + dot(&row, z) + low - w[i];
+                    let sizes: Vec<f64> = row.iter().map(|m| m.abs()).collect();
+                    rounding[i] = self.n as f64 * f64::EPSILON * (dot(&sizes, z) + w[i]);
+                }
+                let excess = norm(&error) > 2.0 * tolerance * norm(&self.q) + norm(&rounding);
                 excess.then(|| format!("w = q + M z is {error:?} off"))
             }
             Status::NoEquilibrium => {
@@ -79,9 +86,12 @@ impl Bare {
                     return Some("negative".into());
                 }
                 // Farkas: y >= 0, Mᵀ y <= 0, q.y < 0 leave no w, z >= 0, as w.y = q.y + z.Mᵀy.
-                // Zero is anything below 1e-10 of the parts.
-                let size = |j: usize| largest(self.column(j)) * largest(y);
-                let bad = (0..self.n).find(|&j| dot(self.column(j), y) > 1e-10 * size(j));
+                // Zero is what 8 units in the last digits of the entries explain, and the rounding of sums here.
+                let part = (8.0 + self.n as f64) * f64::EPSILON;
+                let terms = |j: usize| -> f64 {
+                    self.column(j).iter().zip(y).map(|(m, y)| (m * y).abs()).sum()
+                };
+                let bad = (0..self.n).find(|&j| dot(self.column(j), y) > part * terms(j));
                 match bad {
                     Some(j) => Some(format!("(Mᵀ y)[{j}] = {:e} > 0", dot(self.column(j), y))),
                     None if dot(&self.q, y) < 0.0 => None,

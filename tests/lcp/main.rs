@@ -4,6 +4,7 @@
 mod common;
 
 mod block_pivoting;
+mod certificate;
 mod copositive;
 mod enumeration;
 mod extremes;

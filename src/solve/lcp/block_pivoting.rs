@@ -10,11 +10,12 @@
 
 use std::cell::Cell;
 
+use super::past::{Exchanged, Past};
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
-use crate::problem::{BoundedLcp, Lcp};
+use crate::problem::{BoundedLcp, Lcp, LcpCertificate};
 use crate::solve::pieces::{Before, Equations, REFINEMENTS, SMALL, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
@@ -86,8 +87,8 @@ pub fn lcp(
         remembered: None,
     };
     let measure = |x: &[f64]| {
-        let (eta, product) = lcp.measure(x, magnitudes);
-        (eta <= tolerance, lcp.q().iter().zip(product).map(|(q, mx)| q + mx).collect())
+        let LcpCertificate { eta, w, .. } = lcp.measure((x, &[]), magnitudes);
+        (eta <= tolerance, w)
     };
     solve(&bounded, tolerance, None, most, &measure, monitor)
 }
@@ -135,14 +136,15 @@ fn solve(
             best = (0.0, std::mem::take(&mut iterate.x), std::mem::take(&mut iterate.w));
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
-        let progress = exchange.choose(&iterate, &mut basic, next);
-        if !progress && best.0 <= tolerance && measure(&best.1).0 {
+        match exchange.choose(&iterate, &mut basic, next) {
+            Exchanged::Progress => {}
             // At a degenerate solution rounding may flip the active set forever.
-            break Ending::Done;
+            _ if best.0 <= tolerance && measure(&best.1).0 => break Ending::Done,
+            Exchanged::NoProgress => {}
+            Exchanged::Cycle => break Ending::Cycle,
         }
     };
-    let (_, x, w) = best;
-    let systems = iterate.systems;
+    let ((_, x, w), systems) = (best, iterate.systems);
     let mut found = Candidate::new(x, w, ending, Effort::of_systems(systems.factorisations));
     // Variables that are all at their bounds have the system of the identity.
     let is_factorised = basic.contains(&true);
@@ -275,32 +277,41 @@ struct Exchange {
     /// As many as there are complementary variables: on the worst problems of single exchanges, which take `2^n`, whole
     /// blocks need `n`.
     most_patience: usize,
+    /// A set of single exchanges, which end where it comes back.
+    past: Past,
 }
 
 impl Exchange {
     fn new(lcp: &BoundedLcp<'_>) -> Self {
         let complementary = (0..lcp.q.len()).filter(|&i| !lcp.is_free(i)).count();
         let (fewest, patience) = (usize::MAX, complementary);
-        Exchange { fewest, patience, most_patience: patience }
+        Exchange { fewest, patience, most_patience: patience, past: Past::default() }
     }
 
-    /// Changes `basic`, of which the solution of the system selects `next`. Returns whether fewer
-    /// variables than ever violate their condition.
-    fn choose(&mut self, iterate: &Iterate<'_>, basic: &mut Vec<bool>, next: Vec<bool>) -> bool {
+    /// Changes `basic`, of which the solution of the system selects `next`.
+    fn choose(
+        &mut self,
+        iterate: &Iterate<'_>,
+        basic: &mut Vec<bool>,
+        next: Vec<bool>,
+    ) -> Exchanged {
         let violated = || (0..next.len()).filter(|&i| next[i] != basic[i]);
         let count = violated().count();
         let progress = count < self.fewest;
         if progress {
             (self.fewest, self.patience) = (count, self.most_patience);
+            self.past = Past::default();
         }
         if self.patience > 0 {
             self.patience -= usize::from(!progress);
             let sweeps_help = iterate.lcp.symmetric && progress;
             *basic = if sweeps_help { swept(iterate, basic) } else { next };
+        } else if self.past.repeats(basic) {
+            return Exchanged::Cycle;
         } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
-        progress
+        if progress { Exchanged::Progress } else { Exchanged::NoProgress }
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod block_pivoting;
 mod lemke;
+mod past;
+mod refinement;
 mod solve;
 
 pub use block_pivoting::{contact as block_pivoting, enough};

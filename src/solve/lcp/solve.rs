@@ -1,7 +1,8 @@
 //! The linear complementarity problem, by block pivoting and by Lemke's method.
 
 use super::block_pivoting;
-use super::lemke::{self, LemkeRules, Scaled};
+use super::lemke::{self, LemkeRules, LemkeRun, Scaled};
+use super::refinement::{Refined, proving_ray, scales};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{first_not_finite, largest_of, normalise};
@@ -17,15 +18,20 @@ pub struct LcpSolution {
     pub status: Status,
     /// One sentence on what happened.
     pub message: Message,
-    /// `w >= 0`.
+    /// `w >= 0`: of `z + z_low`, and 0 where that is positive.
     pub w: Vec<f64>,
     /// `z >= 0`.
     pub z: Vec<f64>,
+    /// The part that rounding to doubles has left out of [`Self::z`]: `z + z_low` is what `eta` measures; nothing where
+    /// `z` alone is as good.
+    pub z_low: Vec<f64>,
     /// With [`Status::NoEquilibrium`] the vector `y` that proves it ([`Lcp::is_infeasible_by`]), its
     /// largest entry 1.
     pub infeasible_by: Option<Vec<f64>>,
-    /// [`Lcp::eta`].
+    /// [`Lcp::eta`] of `z + z_low`.
     pub eta: f64,
+    /// The most that rounding `z` to doubles may add to `eta`.
+    pub rounding: f64,
     /// The method that ended it.
     pub method: Method,
     /// The method tried first and why it was abandoned, if another one ended it.
@@ -73,10 +79,14 @@ pub fn solve_lcp(
     if let Some((before, ending)) = pivoted {
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         if !decided && before.eta < solution.eta {
-            (solution.w, solution.z, solution.eta) = (before.w, before.z, before.eta);
+            (solution.w, solution.z, solution.z_low) = (before.w, before.z, before.z_low);
+            (solution.eta, solution.rounding) = (before.eta, before.rounding);
         }
-        let why =
-            if ending == Ending::Singular { Fallback::Singular } else { Fallback::Inaccurate };
+        let why = match ending {
+            Ending::Singular => Fallback::Singular,
+            Ending::Cycle => Fallback::Cycle,
+            _ => Fallback::Inaccurate,
+        };
         solution.fallback = Some((Method::BlockPivoting, why));
         solution.factorisations = before.factorisations;
     }
@@ -105,7 +115,11 @@ fn by_pivoting(
         factorisations = pivoted.effort.factorisations;
         pivoted.ending
     };
-    let mut solution = certified(problem, settings, Method::BlockPivoting, z, &ending);
+    let mut found = Refined::of(problem, z);
+    if ending == Ending::Done {
+        found.refine(problem, settings.tolerance, monitor);
+    }
+    let mut solution = certified(problem, settings, Method::BlockPivoting, found, &ending, monitor);
     (solution.iterations, solution.factorisations) = (monitor.iterations(), factorisations);
     (solution, ending)
 }
@@ -118,60 +132,72 @@ fn by_lemke(
 ) -> Result<LcpSolution, Error> {
     let (lcp, magnitudes) = problem;
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
-    let scale: Vec<f64> = magnitudes.iter().map(|m| (-(m.log2() / 2.0).round()).exp2()).collect();
+    let scale = scales(magnitudes);
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix;
     let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(matrix.column(j));
     let scaled = Scaled::new(fill, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
-    let mut run = lemke::follow(&scaled, rules(false), monitor)?;
+    let (mut run, mut found) = end_of_path(problem, settings, (&scaled, rules(false)), monitor)?;
     let lost_accuracy = match run.ending {
-        Ending::Done => lcp.measure(&run.z, magnitudes).0 > settings.tolerance,
+        Ending::Done => !found.holds(settings.tolerance),
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
     if lost_accuracy {
-        run = lemke::follow(&scaled, rules(true), monitor)?;
+        (run, found) = end_of_path(problem, settings, (&scaled, rules(true)), monitor)?;
     }
-    let mut solution = certified(problem, settings, Method::Lemke, run.z, &run.ending);
+    let mut solution = certified(problem, settings, Method::Lemke, found, &run.ending, monitor);
     (solution.iterations, solution.refactorisations) = (monitor.iterations(), run.refactorisations);
     Ok(solution)
 }
 
-/// The result of `z`, with which a method has ended.
+/// A path and the candidate at its end, refined.
+fn end_of_path(
+    problem: (&Lcp<'_>, &[f64]),
+    settings: &Settings,
+    (scaled, rules): (&Scaled<'_>, LemkeRules),
+    monitor: &mut Monitor<'_>,
+) -> Result<(LemkeRun, Refined), Error> {
+    let mut run = lemke::follow(scaled, rules, monitor)?;
+    let mut found = Refined::of(problem, std::mem::take(&mut run.z));
+    if run.ending == Ending::Done {
+        found.refine(problem, settings.tolerance, monitor);
+    }
+    Ok((run, found))
+}
+
+/// The result of a candidate, with which a method has ended.
 fn certified(
-    (lcp, magnitudes): (&Lcp<'_>, &[f64]),
+    problem: (&Lcp<'_>, &[f64]),
     settings: &Settings,
     method: Method,
-    mut z: Vec<f64>,
+    mut found: Refined,
     ending: &Ending,
+    monitor: &mut Monitor<'_>,
 ) -> LcpSolution {
-    let (mut eta, product) = lcp.measure(&z, magnitudes);
-    let w = lcp.q().iter().zip(&product).zip(&z);
-    let w = w.map(|((q, mz), z)| if *z > 0.0 { 0.0 } else { slack(*q, *mz) });
-    let mut w: Vec<f64> = w.collect();
-    let overflow = overflow(&w, &z);
-    if overflow.is_some() {
-        // Only numbers are returned: those of z = 0.
-        z.fill(0.0);
-        w = lcp.q().iter().map(|&q| slack(q, 0.0)).collect();
-        eta = lcp.measure(&z, magnitudes).0;
+    let n = problem.0.size();
+    let mut w: Vec<f64> = (0..n).map(|i| found.slack(i)).collect();
+    let overflow = overflow(&w, &found.z);
+    if overflow.is_some() || !found.certificate.eta.is_finite() {
+        // Only numbers are returned: those of z = 0, whose eta is 1 at most.
+        found = Refined::of(problem, vec![0.0; n]);
+        w = (0..n).map(|i| found.slack(i)).collect();
     }
-    let mut infeasible_by = None;
-    let ending = match ending {
-        Ending::Recession(ray) => &Ending::Recession(without_digits(ray, magnitudes)),
-        other => other,
+    let eta = found.certificate.eta;
+    let holds = overflow.is_none() && found.holds(settings.tolerance);
+    let infeasible_by = match ending {
+        Ending::Recession(ray) if !holds => proof(problem, ray, monitor),
+        _ => None,
     };
     let wanted = || format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
     let (status, message) = match ending {
-        _ if overflow.is_none() && eta <= settings.tolerance => {
-            (Status::Solved, format!("solved: eta is {eta:.1e}"))
+        _ if holds && found.low.is_empty() => (Status::Solved, format!("solved: eta is {eta:.1e}")),
+        _ if holds => {
+            (Status::Solved, format!("solved: eta is {eta:.1e} before z is rounded to doubles"))
         }
-        Ending::Recession(ray) if lcp.is_infeasible_by(ray) => {
-            let mut ray = ray.clone();
-            normalise(&mut ray);
-            infeasible_by = Some(ray);
+        Ending::Recession(_) if infeasible_by.is_some() => {
             (Status::NoEquilibrium, "no w, z >= 0 satisfy w = q + M z: proved".into())
         }
         Ending::Stopped(stop) => stop.status(settings, &wanted()),
@@ -179,6 +205,7 @@ fn certified(
             Some(place) => {
                 (Status::Stalled, format!("{place} is beyond the largest number, {:.1e}", f64::MAX))
             }
+            None if eta <= settings.tolerance => (Status::Stalled, ROUNDED.into()),
             None => (Status::Stalled, format!("{}; {}", reason(other), wanted())),
         },
     };
@@ -186,9 +213,11 @@ fn certified(
         status,
         message: message.into(),
         w,
-        z,
+        z: found.z,
+        z_low: found.low,
         infeasible_by,
         eta,
+        rounding: found.certificate.rounding,
         method,
         fallback: None,
         iterations: 0,
@@ -197,10 +226,21 @@ fn certified(
     }
 }
 
-/// `w` of a variable with `z = 0`: not negative, and NaN where it is not known.
-fn slack(q: f64, mz: f64) -> f64 {
-    let w = q + mz;
-    if w < 0.0 { 0.0 } else { w }
+/// Why a candidate with a small `eta` is no solution.
+const ROUNDED: &str = "z rounded to doubles hides q";
+
+/// The vector that proves by a ray that there is no solution, its largest entry 1.
+fn proof(problem: (&Lcp<'_>, &[f64]), ray: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+    let (lcp, magnitudes) = problem;
+    let few = without_digits(ray, magnitudes);
+    let mut proof = if lcp.is_infeasible_by(&few) {
+        few
+    } else {
+        // Digits that rounding has left are none of a proof; small entries may be.
+        proving_ray(problem, &few, monitor).or_else(|| proving_ray(problem, ray, monitor))?
+    };
+    normalise(&mut proof);
+    Some(proof)
 }
 
 /// A ray without the entries that are digits which rounding has left, relative to their magnitudes.
@@ -224,10 +264,9 @@ fn reason(ending: &Ending) -> &'static str {
         Ending::Recession(_) => "Lemke's path ended in a ray that is no proof of infeasibility",
         Ending::Singular => "block pivoting met a singular system, or M has no positive diagonal",
         Ending::Stalled(reason) => reason,
-        Ending::Done
-        | Ending::Cycle
-        | Ending::RunsAway(_)
-        | Ending::Stopped(_)
-        | Ending::Failed(_) => "accuracy was lost to rounding",
+        Ending::Cycle => "block pivoting repeats a set of variables: it cycles",
+        Ending::Done | Ending::RunsAway(_) | Ending::Stopped(_) | Ending::Failed(_) => {
+            "accuracy was lost to rounding"
+        }
     }
 }
