@@ -74,6 +74,8 @@ fn exponents_are_exact() {
     assert_eq!(times_power_of_two(1.5, -2200), 0.0);
     assert_eq!(largest_exponent([0.0, 5e-324, -3.0]), Some(1));
     assert_eq!(largest_exponent([0.0]), None);
-    assert_eq!(dot_in_own_unit(&[1e308, 1.0], &[-1.5e308, 1e-320]).0.signum(), -1.0);
-    assert_eq!(dot_in_own_unit(&[0.0, 5e-324], &[1.0, 5e-324]), (1.0, 1.0));
+    let dot = |a: [f64; 2], b: [f64; 2]| dot_in_own_unit(a.into_iter().zip(b));
+    assert_eq!(dot([1e308, 1.0], [-1.5e308, 1e-320]).sum.signum(), -1.0);
+    let smallest = dot([0.0, 5e-324], [1.0, 5e-324]);
+    assert_eq!((smallest.sum, smallest.terms, smallest.unit), (1.0, 1.0, -2148));
 }
