@@ -157,9 +157,9 @@ fn digits_beyond_doubles_are_found() {
                 continue;
             }
             in_parts += 1;
-            for i in 0..2 {
+            for (i, thrice) in thrice.into_iter().enumerate() {
                 // Exact, as it has few digits.
-                let left = (-3.0_f64).mul_add(solution.z[i], thrice[i]);
+                let left = (-3.0_f64).mul_add(solution.z[i], thrice);
                 let wrong = (left - 3.0 * solution.z_low[i]).abs();
                 // w is 1e-10 of q at most, and the inverse of M has entries up to c / 3.
                 assert!(wrong <= 1e-10 * (p + r) as f64 * (b + c) as f64, "{b} {solution:?}");
