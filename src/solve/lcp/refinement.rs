@@ -137,14 +137,13 @@ pub fn proving_ray(
         resistance.sum.abs() <= NEGLIGIBLE * resistance.terms
     };
     let zeros: Vec<usize> = (0..y.len()).filter(is_zero).collect();
-    monitor.affords(ORTHOGONALISED * zeros.len() as f64 * (moving.len() as f64).powi(2)).ok()?;
+    // An orthogonalisation, done twice, has four operations for an entry of one column and another column.
+    let work = 4.0 * zeros.len() as f64 * (moving.len() as f64).powi(2);
+    monitor.affords(work).ok()?;
     let column = |&i: &usize| zeros.iter().map(|&j| entry(i, j)).collect();
     let columns = Columns::new(moving.iter().map(column), NEGLIGIBLE);
     ray.refined(y, &zeros, |mut left| columns.coefficients(columns.take_out(&mut left)))
 }
-
-/// Operations of an orthogonalisation, done twice, for an entry of one column and another column.
-const ORTHOGONALISED: f64 = 4.0;
 
 /// A ray of which some entries are to be refined.
 struct Ray<'r> {

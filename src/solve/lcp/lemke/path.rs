@@ -18,7 +18,7 @@
 use super::scaled::Scaled;
 use super::tableau::Tableau;
 use crate::error::Error;
-use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::monitor::Monitor;
 use crate::solve::result::Ending;
 
@@ -50,10 +50,6 @@ const DRIFT: f64 = 10.0 * NEGLIGIBLE;
 /// tenth of a millisecond here.
 const FEW: usize = 64;
 
-/// End of the path where a ray proves something: only the rounding of the last pivots is forgiven, ten
-/// units of [`crate::linalg::tolerances::ROUNDING`].
-const END: f64 = 1e-13;
-
 /// How a path is followed.
 #[derive(Clone, Copy, Debug)]
 pub struct LemkeRules {
@@ -69,9 +65,9 @@ pub struct LemkeRules {
 }
 
 impl LemkeRules {
-    /// For problems in which a ray proves something.
+    /// For problems in which a ray proves something: at its end ten times the rounding of the last pivots is forgiven.
     pub fn usual(thorough: bool) -> Self {
-        LemkeRules { thorough, end: END, turns: 0, label: None }
+        LemkeRules { thorough, end: 10.0 * ROUNDING, turns: 0, label: None }
     }
 }
 
