@@ -357,9 +357,9 @@ class SurfacePairs(Remade):
         what = f"node {found.node}" if found.node >= 0 else f"a point of slave face {found.face}"
         through = f"master face {found.master_face}" if found.master_face >= 0 else "the obstacle"
         sentence = (
-            f"{found.points} slave nodes and middles of slave faces have passed through the other side without a "
-            f"pair, the deepest, {what} at ({place}), through {through} by {found.depth:.4g}: pair with a larger "
-            f"search_distance")
+            f"{found.points} nodes and middles of slave faces have passed through the other side without a pair, the "
+            f"deepest, {what} at ({place}), through {through} by {found.depth:.4g}: pair with a larger search_distance, "
+            f"or let the side with the finer mesh be the slave")
         return Penetration(found.points, found.depth, np.array(found.point), found.face, found.node,
                            found.master_face, sentence)
 
