@@ -55,7 +55,7 @@ class Zones(unittest.TestCase):
         held = self.model.solve(self.load, mu=0.3)
         self.assertIsNone(held.penetration)
         model = signorini.Model.from_surfaces(springs, contacts)
-        with self.assertWarnsRegex(UserWarning, "3 slave nodes and middles .* have passed .* larger search_distance"):
+        with self.assertWarnsRegex(UserWarning, "3 nodes and middles .* have passed .* larger search_distance"):
             result = model.solve(self.load, mu=0.3)
         middle = (4 / 2 - 0.1) / (1 / 2 + 1 / 4) / 4 + 0.1  # what the middle line falls by on the lower one
         self.assertAlmostEqual(result.penetration.depth, 4 - middle - 0.2, delta=1e-8)
