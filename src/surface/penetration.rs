@@ -12,7 +12,7 @@
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::exact_shape::Obstacle;
@@ -79,6 +79,9 @@ struct Held {
     uncovered: Vec<bool>,
     asked: Vec<usize>,
 }
+
+/// What has passed through, and the slave faces of which a point has.
+type Found = (Penetration, HashSet<usize>);
 
 /// A point of a side before and after the motion, and its normal before.
 type Point = ([Vector3; 2], Vector3);
@@ -148,7 +151,7 @@ impl KeptSurfaces {
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
                 let masters = self.before_and_after("master", &moved, lists)?;
-                let (found, told) = self.through_faces(held, [&slaves, &masters], watch)?;
+                let (near, found) = self.through_faces(held, [&slaves, &masters], watch)?;
                 let asked = |at: &usize| &self.slave[1][self.slave[0][*at]..self.slave[0][at + 1]];
                 let lists =
                     held.asked.iter().map(asked).fold([vec![0], vec![]], |mut lists, face| {
@@ -157,7 +160,7 @@ impl KeptSurfaces {
                         lists
                     });
                 let asked = self.before_and_after("slave", &moved, &lists)?;
-                self.masters_through((held, told), [&asked, &masters], found, watch)
+                self.masters_through((held, near), [&asked, &masters], found, watch)
             }
         }
     }
@@ -200,23 +203,31 @@ impl KeptSurfaces {
         Held { nodes, uncovered, asked }
     }
 
-    /// What has passed through of the slave, and the slave faces of which a point has.
+    /// The master faces before or behind those that are asked; what has passed through of the slave, and the slave faces of
+    /// which a point has.
     fn through_faces(
         &self,
         held: &Held,
         [slaves, masters]: [&[Side<'_>; 2]; 2],
         watch: &mut Watch<'_, '_>,
-    ) -> Result<(Penetration, HashSet<usize>), Error> {
+    ) -> Result<(BTreeSet<usize>, Found), Error> {
         let opposite = SearchFaces::new(&masters[1], watch)?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
         let mut candidates = Self::candidates(opposite, asked);
-        self.deepest(held, slaves, watch, |[first, face], at, least| {
+        let mut near = BTreeSet::new();
+        for &at in &held.asked {
+            watch.goes_on()?;
+            let normal = slaves[0].face(at).middle_normal();
+            near.extend(candidates.of_face(&slaves[1].face(at), normal));
+        }
+        let found = self.deepest(held, slaves, watch, |[first, face], at, least| {
             let normal = first.normal(at);
             let point = ([first, face].map(|face| face.position(at)), normal);
             let x = point.0[1] - self.clearance * normal;
             let behind = self.behind(point, masters, candidates.of_point(x, normal), |_| least)?;
             Some((behind.0, Some(behind.1)))
-        })
+        })?;
+        Ok((near, found))
     }
 
     /// The search for faces behind others, however deep.
@@ -253,22 +264,19 @@ impl KeptSurfaces {
     /// count if their face is not told yet.
     fn masters_through(
         &self,
-        (held, told): (&Held, HashSet<usize>),
+        (held, near_asked): (&Held, BTreeSet<usize>),
         [slaves, masters]: [&[Side<'_>; 2]; 2],
-        mut found: Penetration,
+        (mut found, told): Found,
         watch: &mut Watch<'_, '_>,
     ) -> Result<Penetration, Error> {
         let opposite = SearchFaces::new(&slaves[1], watch)?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
         let mut counted = HashSet::new();
-        for of_master in 0..masters[1].count() {
+        for of_master in near_asked {
             watch.goes_on()?;
             let faces = [0, 1].map(|moved| masters[moved].face(of_master));
             let normal = faces[0].middle_normal();
             let near = candidates.of_face(&faces[1], normal);
-            if near.is_empty() {
-                continue;
-            }
             let size = faces[0].size();
             let least = |at: usize| {
                 let face = slaves[0].face(at);
@@ -301,7 +309,7 @@ impl KeptSurfaces {
         [before, after]: &[Side<'_>; 2],
         watch: &mut Watch<'_, '_>,
         mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
-    ) -> Result<(Penetration, HashSet<usize>), Error> {
+    ) -> Result<Found, Error> {
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
         let mut told = HashSet::new();
         for &at in &held.asked {
