@@ -119,46 +119,65 @@ fn least_covers(
     }
     let enough = if rims == Rims::Fold { LEAST_COVER } else { LEAST_OF_MANY };
     let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, watch)?;
-    let mut found = HashMap::with_capacity(at_rims.len());
-    for node in at_rims {
-        watch.goes_on()?;
-        let mut near = BTreeSet::from([node]);
-        for _ in 0..NEAR {
-            let next: Vec<usize> = near.iter().flat_map(|at| &beside[at]).copied().collect();
-            near.extend(next);
+    // From node to node go the best ones alone: where many faces meet in a node all are near each other.
+    let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
+    for _ in 0..NEAR {
+        let mut next = HashMap::with_capacity(beside.len());
+        for (&node, around) in &beside {
+            watch.goes_on()?;
+            let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![*at]);
+            let near = around.iter().chain([&node]).flat_map(known).collect();
+            next.insert(node, holders(near, rows, (slave, rows[&node].normal.normalize())));
         }
-        let mut around: Vec<(f64, Vector3)> =
-            near.into_iter().map(|at| (rows[&at].cover(), slave.position(at))).collect();
-        around.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let normal = rows[&node].normal.normalize();
-        let holds = |least: f64| {
-            let count = around.partition_point(|(cover, _)| *cover >= least);
-            hold(&around[..count], (slave.dim, normal))
-        };
-        let least = [LEAST_COVER, LITTLE_COVER].map(|least| least - SAME_COVER);
-        let least = match least.map(holds) {
-            [true, _] => enough - SAME_COVER,
-            [_, true] => LITTLE_COVER - SAME_COVER,
-            _ => {
-                // Those with as much keep theirs too.
-                let mut covers = around.iter().map(|(cover, _)| cover - SAME_COVER);
-                covers.find(|least| holds(*least)).map_or(SAME_COVER, |least| least.max(SAME_COVER))
-            }
-        };
-        found.insert(node, least);
+        best = next;
     }
-    Ok(found)
+    let least_of = |node: usize| {
+        let holders = &best[&node];
+        let holds = holders.len() == slave.dim;
+        // Those with as much keep theirs too.
+        let last = holders.last().filter(|_| holds).map_or(0.0, |last| rows[last].cover());
+        let has = |least: f64| last >= least - SAME_COVER;
+        let least = match [LEAST_COVER, LITTLE_COVER].map(has) {
+            [true, _] => enough,
+            [_, true] => LITTLE_COVER,
+            _ => last,
+        };
+        (node, (least - SAME_COVER).max(SAME_COVER))
+    };
+    Ok(at_rims.into_iter().map(least_of).collect())
 }
 
-/// `true` if forces at these places along a normal balance all moments of such forces.
-fn hold(places: &[(f64, Vector3)], (dim, normal): (usize, Vector3)) -> bool {
-    let Some(((_, first), others)) = places.split_first() else { return false };
-    let from_first = others.iter().map(|(_, place)| place - first);
-    let furthest = from_first.clone().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
-    let Some(along) = furthest.filter(|along| *along != Vector3::zeros()) else { return false };
-    // Of a curved surface as its normal sees it: a strip around a cylinder is a line.
-    let off_line = |a: Vector3| normal.dot(&along.cross(&a)).abs();
-    dim == 2 || from_first.map(off_line).any(|off| off > ON_PLANE * along.norm_squared())
+/// Of some nodes those with most cover that hold a body, in the order of their covers: forces at their places along a normal balance
+/// all moments of such forces. The best of more nodes are among the best of each part of them.
+fn holders(
+    mut nodes: Vec<usize>,
+    rows: &BTreeMap<usize, Row>,
+    (slave, normal): (&Side<'_>, Vector3),
+) -> Vec<usize> {
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes.sort_by(|a, b| rows[b].cover().total_cmp(&rows[a].cover()));
+    let mut found: Vec<usize> = Vec::with_capacity(slave.dim);
+    for node in nodes {
+        let from_first = |at: usize| slave.position(at) - slave.position(found[0]);
+        let adds = match found[..] {
+            [] => true,
+            [_] => from_first(node) != Vector3::zeros(),
+            // Of a curved surface as its normal sees it: a strip around a cylinder is a line.
+            [_, second, ..] => {
+                let (a, b) = (from_first(second), from_first(node));
+                let longest = a.norm_squared().max(b.norm_squared());
+                normal.dot(&a.cross(&b)).abs() > ON_PLANE * longest
+            }
+        };
+        if adds {
+            found.push(node);
+        }
+        if found.len() == slave.dim {
+            break;
+        }
+    }
+    found
 }
 
 /// The nodes beside some nodes, beside these, and so on, by all slave faces but some.
