@@ -50,7 +50,9 @@ pub fn solve(
             compliance: COMPLIANCE,
             changed: None,
             free_motions: free_motions.as_deref(),
+            before: variables.clone(),
             variables,
+            least: 0.0,
             right: Vec::new(),
         };
         let force = vec![0.0; relation.size()];
@@ -68,6 +70,9 @@ struct Bodies<'p> {
     changed: Option<SparseSchur>,
     free_motions: Option<&'p [Vec<f64>]>,
     variables: Vec<f64>,
+    /// Those before the last round, and the least `e` that rounds are left to.
+    before: Vec<f64>,
+    least: f64,
     /// The load of the round on the variables, and on the displacements beyond the springs.
     right: Vec<f64>,
 }
@@ -103,13 +108,19 @@ impl InSeries for Bodies<'_> {
 
     fn advance(&mut self, step: &[f64]) {
         let step = unended(|goes_on| self.condensed().recover(&self.right, step, goes_on));
+        self.before.clone_from(&self.variables);
         self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
     }
 
-    /// The springs before are released first. Where there is no time for others the first ones come back.
+    /// The springs before are released first. Where there is no time for others the first ones come back. Softer ones begin where
+    /// the round did that less compliant ones have failed in, and stay.
     fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
         let compliance = changed(self.compliance, softer, COMPLIANCE);
-        if compliance == self.compliance {
+        if softer {
+            self.variables.clone_from(&self.before);
+            self.least = compliance;
+        }
+        if compliance == self.compliance || compliance < self.least {
             return;
         }
         (self.compliance, self.changed) = (COMPLIANCE, None);

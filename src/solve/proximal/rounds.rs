@@ -8,7 +8,7 @@
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
 //! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
-//! round, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
+//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
 //! default method has all its means: a round that it leaves without a solution, and no nearer to one, ends the rounds, and
 //! its sentence is that of the problem.
 //!
@@ -192,13 +192,13 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let result = (self.springs.displacements(&force), &force[..]);
         let found = measured(&self.contact, (round, rough), result, self.settings);
         let eta = found.certificate.eta;
-        if failed && eta >= self.last {
-            let ends = self.springs.are_softest();
-            match ends {
+        let softest = self.springs.are_softest();
+        if failed && eta >= if softest { self.last } else { SLOW * self.last } {
+            match softest {
                 true => _ = self.keep(found, false, false),
                 false => self.springs.change(true, monitor),
             }
-            return Ok(ends);
+            return Ok(softest);
         }
         let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
         self.changes = [self.changes[1], norm_inf(&change)];
