@@ -26,7 +26,8 @@ impl Wall {
         Wall { mesh, courses }
     }
 
-    /// Lower corners stand on the floor, corners on the bricks above and below between their ends, and those of bricks beside each other meet.
+    /// Lower corners stand on the floor, corners on the bricks above and below between their ends; those of bricks beside
+    /// each other meet.
     fn host(&self) -> Host {
         let (mut rows, mut normals) = (vec![], vec![]);
         let mut add = |row: Vec<(usize, f64)>, normal: [f64; 2]| {
@@ -56,14 +57,7 @@ impl Wall {
                 }
             }
         }
-        let (n, lower) = (self.mesh.size(), self.mesh.stiffness());
-        let mut stiffness = vec![0.0; n * n];
-        for j in 0..n {
-            for k in lower.col_start[j] as usize..lower.col_start[j + 1] as usize {
-                let i = lower.row[k] as usize;
-                (stiffness[i + n * j], stiffness[j + n * i]) = (lower.values[k], lower.values[k]);
-            }
-        }
+        let stiffness = self.mesh.stiffness().dense();
         Host { dim: 2, stiffness, fixed: vec![], rows, normals, tangents: None }
     }
 
