@@ -8,6 +8,8 @@ mod common;
 #[path = "../common/rows.rs"]
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
+#[path = "../common/wall.rs"]
+mod wall;
 
 mod blocks_3d;
 mod contact_alone;

@@ -5,6 +5,9 @@ mod common;
 #[path = "../common/rows.rs"]
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
+#[path = "../common/wall.rs"]
+#[allow(dead_code)] // Each test uses a part.
+mod wall;
 
 mod cancelled;
 mod closed_forms;

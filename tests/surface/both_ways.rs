@@ -1,7 +1,9 @@
 //! Two surfaces that are each other's slaves: solved where the rows of both are far enough from following from each
 //! other, and refused with what to do where rounding decides.
 
+use crate::common::solids::{Cells, Order, Solid};
 use crate::surfaces::{line, pair, steps};
+use fastrand::Rng;
 use signorini::reduce::{ContactPairs, Indices, SparseMatrix, Triangle};
 use signorini::surface::{PairArrays, SurfaceSettings};
 use signorini::{Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
@@ -116,5 +118,58 @@ fn both_ways_are_refused_with_the_way_out_where_rounding_decides() {
             }
             Ok(solution) => assert_eq!(solution.status, Status::Solved, "{cells:?}"),
         }
+    }
+}
+
+/// Blocks of bricks in space, one layer each, of `cells` along either side, without friction: the upper one stands on contact
+/// alone, and nothing holds it sideways.
+fn blocks(cells: [usize; 2]) -> (Model, PairArrays, Vec<f64>) {
+    let half = [5.0 * cells[0] as f64, 3.75 * cells[1] as f64];
+    let across = [0, 1].map(|k| steps(-half[k], half[k], cells[k]));
+    let levels = [[-10.0, 0.0], [0.0, 7.5]];
+    let solids = [0, 1].map(|k| {
+        let lines: [&[f64]; 3] = [&across[k], &across[k], &levels[k]];
+        let kind = (Cells::Boxes, Order::Linear);
+        Solid::new(&lines, kind, (210e3, 0.3), (0.0, &mut Rng::with_seed(0)))
+    });
+    let below = solids[0].nodes.len();
+    let mut nodes = solids[0].nodes.clone();
+    nodes.extend(&solids[1].nodes);
+    let mut upper = solids[1].lower.clone();
+    upper.iter_mut().flatten().for_each(|node| *node += below);
+    let found =
+        |sides: [&[Vec<usize>]; 2]| pair(3, &nodes, sides, &SurfaceSettings::default()).unwrap();
+    let mut both = found([&upper, &solids[0].upper]);
+    both.pairs.extend(found([&solids[0].upper, &upper]).pairs);
+    let arrays = both.rows();
+    let level = |node: &usize| nodes[*node][2];
+    let fixed: Vec<usize> = (0..below)
+        .filter(|node| level(node) < -5.0)
+        .flat_map(|node| 3 * node..3 * node + 3)
+        .collect();
+    let pressed: Vec<usize> = (below..nodes.len()).filter(|node| level(node) > 5.0).collect();
+    let mut load = vec![0.0; 3 * nodes.len()];
+    pressed.iter().for_each(|node| load[3 * node + 2] = -1.0 / pressed.len() as f64);
+    let stiffness = Solid::stiffness(&[&solids[0], &solids[1]]);
+    let model = Model::sparse(&stiffness.view(), &fixed, &ContactPairs::from(&arrays)).unwrap();
+    (model, arrays, load)
+}
+
+/// Few pairs, and many: the forces of all pairs carry the press, to 1e-8 as above.
+#[test]
+fn blocks_that_are_each_others_slaves() {
+    for cells in [[2, 2], [3, 2], [4, 2], [4, 3], [5, 5], [3, 7]] {
+        let (model, arrays, load) = blocks(cells);
+        let law = FrictionLaw::Frictionless;
+        let gap = &arrays.gaps;
+        let case = LoadCase { load: &load, prescribed: None, gap, law, reference_slip: None };
+        let settings = Settings::default();
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        assert_eq!(solution.status, Status::Solved, "{cells:?}: {}", solution.message);
+        let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+        let below = 2 * (cells[0] + 1).pow(2);
+        let carried: f64 = nodal.iter().skip(3 * below + 2).step_by(3).sum();
+        assert!((carried - 1.0).abs() < 1e-8, "{cells:?}: {carried}");
     }
 }
