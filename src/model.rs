@@ -89,7 +89,10 @@ impl Model {
         let dependence = self.reduction.dependence();
         let size = dependence.map_or(self.dim * self.pairs, Dependence::variables);
         let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
-        symmetric_matrix::check(&matrix, 1, ("K_rel", Argument::Matrix))?;
+        // Rigid bodies have none; springs in series with pairs that depend on each other do without.
+        if dependence.is_none() || matrix.largest_diagonal() > 0.0 {
+            symmetric_matrix::check(&matrix, 1, ("K_rel", Argument::Matrix))?;
+        }
         Ok(self)
     }
 

@@ -3,7 +3,7 @@
 use crate::common::problems::{uniform, vector};
 use crate::constrained::{Constrained, Terms, close, solved};
 use fastrand::Rng;
-use signorini::{Error, Settings};
+use signorini::{Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
 
 /// Equations of a node of a plane rigid body at the arm `r`: `u = U + theta x r`, its motion from degree of freedom `first` on.
 fn rigid(node: usize, [x, y]: [f64; 2], first: usize) -> [(usize, Terms); 2] {
@@ -99,5 +99,106 @@ fn stiffness_within_a_rigid_body_is_none() {
         let force = solved(&model, &load, &[0.0, 0.0, 0.1], 0.0).certificate.force;
         let pressed: Vec<f64> = force.chunks(2).map(|force| force[0]).collect();
         close(&pressed, &[-1.0, -1.0, -0.8], 1e-9, &format!("seed {seed}"));
+    }
+}
+
+/// A rigid body of no stiffness on a rigid plane: forces of its nodes balance the load if this does not slide, `|T| <= mu N`, and
+/// acts within the base; otherwise no equilibrium exists. Its nodes have rows in the matrix that are empty, or none. The base, in
+/// the order from the left, is a line of the reference point's axes; loads nearer than a thousandth to a limit are left out.
+#[test]
+fn rigid_bodies_without_any_stiffness_obey_statics() {
+    let mut statuses = [0; 2];
+    for seed in 0..150 {
+        let rng = &mut Rng::with_seed(seed);
+        let nodes = rng.usize(2..=6);
+        let (at, mu) = ([uniform(rng, -1.0, 1.0), uniform(rng, 0.1, 1.0)], uniform(rng, 0.1, 1.0));
+        let base: Vec<f64> = (0..nodes).map(|_| uniform(rng, -1.0, 1.0)).collect();
+        let [left, right] = [f64::min, f64::max].map(|of| base.iter().copied().reduce(of).unwrap());
+        let [shear, moment] = [uniform(rng, -0.8, 0.8), uniform(rng, -0.8, 0.8)];
+        let acts = at[0] + at[1] * shear - moment;
+        let slides = shear.abs() - mu;
+        let beyond = (left - acts).max(acts - right);
+        if slides.abs() < 1e-3 || beyond.abs() < 1e-3 {
+            continue;
+        }
+        let (first, size) = (2 * nodes, 2 * nodes + 3);
+        let node = |(node, x): (usize, &f64)| rigid(node, [x - at[0], -at[1]], first);
+        let structure = Constrained {
+            dim: 2,
+            stiffness: vec![0.0; size * size],
+            fixed: vec![],
+            equations: base.iter().enumerate().flat_map(node).collect(),
+            rows: (0..nodes).map(row).collect(),
+            normals: [0.0, -1.0].repeat(nodes),
+            tangents: None,
+        };
+        let mut load = vec![0.0; size];
+        load[first..].copy_from_slice(&[shear, -1.0, moment]);
+        let settings = Settings::default();
+        let gathered = structure.gathered(&load);
+        let hosts =
+            [(structure.whole(&settings), &load), (structure.eliminated(&settings), &gathered)];
+        for (model, load) in hosts {
+            let (gap, friction) = (vec![0.0; nodes], vec![mu; nodes]);
+            let law = FrictionLaw::Coulomb(&friction);
+            let case = LoadCase { load, prescribed: None, gap: &gap, law, reference_slip: None };
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            let rests = slides < 0.0 && beyond < 0.0;
+            let expected = if rests { Status::Solved } else { Status::NoEquilibrium };
+            assert_eq!(solution.status, expected, "seed {seed}: {}", solution.message);
+            statuses[usize::from(rests)] += 1;
+            if rests {
+                // To ten times the tolerance.
+                let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
+                let on_body = &nodal[nodal.len() - 3..];
+                close(on_body, &[-shear, 1.0, -moment], 1e-9, &format!("seed {seed}"));
+            }
+        }
+    }
+    assert!(statuses.iter().all(|count| *count > 50), "{statuses:?}");
+}
+
+/// A rigid body that nothing but pairs hold, on nodes with springs: hosts with rows for its nodes, without, and with rows of pairs
+/// by its three unknowns have the same solution. To 1e-9, a thousand times the tolerance.
+#[test]
+fn a_rigid_body_on_springs_needs_no_rows_in_the_matrix() {
+    for seed in 0..100 {
+        let rng = &mut Rng::with_seed(seed);
+        let nodes = rng.usize(2..=5);
+        let (first, size) = (4 * nodes, 4 * nodes + 3);
+        let mut stiffness = vec![0.0; size * size];
+        for spring in 0..4 * nodes {
+            let mut v = vec![0.0; size];
+            v[2 * nodes..first].copy_from_slice(&vector(rng, 2 * nodes));
+            v[2 * nodes + spring / 2] += 1.0;
+            add_spring(&mut stiffness, 1.0, &v);
+        }
+        let place = |k: usize| k as f64 / (nodes - 1) as f64 - 0.5;
+        let onto = |k: usize| {
+            let above = row(k);
+            let below = row(nodes + k).into_iter().map(|(dof, v)| (dof, vec![-v[0], -v[1]]));
+            above.into_iter().chain(below).collect()
+        };
+        let structure = Constrained {
+            dim: 2,
+            stiffness,
+            fixed: vec![],
+            equations: (0..nodes).flat_map(|k| rigid(k, [place(k), -0.2], first)).collect(),
+            rows: (0..nodes).map(onto).collect(),
+            normals: [0.0, -1.0].repeat(nodes),
+            tangents: None,
+        };
+        let mut load = vec![0.0; size];
+        load[first..].copy_from_slice(&[uniform(rng, -0.1, 0.1), -1.0, uniform(rng, -0.1, 0.1)]);
+        let (settings, gap) = (Settings::default(), vec![0.0; nodes]);
+        let whole = solved(&structure.whole(&settings), &load, &gap, 0.5);
+        let gathered = structure.gathered(&load);
+        for model in [structure.eliminated(&settings), structure.reduced().whole(&settings)] {
+            let other = solved(&model, &gathered, &gap, 0.5);
+            let context = format!("seed {seed}");
+            close(&other.certificate.force, &whole.certificate.force, 1e-9, &context);
+            close(&other.d, &whole.d, 1e-9, &context);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::host_arrays::SparseMatrix;
+use super::host_matrix::check_diagonal;
 use crate::error::Error;
 use crate::linalg::sparse_matrix::{Csc, diagonal, entries};
 use crate::linalg::tolerances::AGREES;
@@ -44,7 +45,8 @@ impl SparseW {
                 matrix.size
             ));
         }
-        let lower = matrix.lower_triangle("W", |_| true)?;
+        let lower = matrix.lower_triangle("W")?;
+        check_diagonal("W", &lower, |_| true)?;
         check_entries(&lower)?;
         SparseW::new(dim, lower)
     }

@@ -19,32 +19,25 @@ impl SparseMatrix<'_> {
         self.checked_col_start().map(|_| ())
     }
 
-    /// Checks the arrays and copies the lower triangle. The diagonal entry of a degree of freedom that
-    /// `is_fixed` may be zero or not stored, if its row is zero. `name` is the host's name of the matrix.
+    /// Checks the arrays, but for the diagonal, and copies the lower triangle. `name` is the host's name of the matrix.
     ///
     /// # Errors
     /// The first start of a column that is out of order or range; the first row that is out of range,
     /// not ascending, listed twice or in the wrong triangle; the first value that is not finite; the
-    /// first pair of entries that are not symmetric; the first diagonal entry that is not positive.
-    pub(super) fn lower_triangle(
-        &self,
-        name: &str,
-        is_fixed: impl Fn(usize) -> bool,
-    ) -> Result<Csc, Error> {
+    /// first pair of entries that are not symmetric.
+    pub(super) fn lower_triangle(&self, name: &str) -> Result<Csc, Error> {
         let memory = |_: OutOfMemory| Error::OutOfMemory("a copy of the sparse matrix");
         let col_start = self.checked_col_start()?;
         let columns = Columns::with_capacity(self.values.len()).map_err(memory)?;
         let stored = self.checked_columns(name, &col_start, columns)?;
-        let lower = match self.triangle {
-            Triangle::Lower => stored,
-            Triangle::Upper => transposed(&stored).map_err(memory)?,
+        match self.triangle {
+            Triangle::Lower => Ok(stored),
+            Triangle::Upper => transposed(&stored).map_err(memory),
             Triangle::Full => {
                 check_symmetry(name, &stored, &transposed(&stored).map_err(memory)?)?;
-                lower_part(&stored).map_err(memory)?
+                lower_part(&stored).map_err(memory)
             }
-        };
-        check_diagonal(name, &lower, is_fixed)?;
-        Ok(lower)
+        }
     }
 
     fn checked_col_start(&self) -> Result<Vec<usize>, Error> {
@@ -147,9 +140,13 @@ fn lower_part(full: &Csc) -> Result<Csc, OutOfMemory> {
     Ok(lower.matrix(size))
 }
 
-/// Refuses diagonal entries that are not positive. One of a fixed degree of freedom may be zero, if its
-/// row is.
-fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> Result<(), Error> {
+/// Refuses diagonal entries that are not positive. That of a degree of freedom which `may_lack` stiffness may be zero or not
+/// stored, if its row is zero.
+pub(super) fn check_diagonal(
+    name: &str,
+    lower: &Csc,
+    may_lack: impl Fn(usize) -> bool,
+) -> Result<(), Error> {
     let size = lower.ncols();
     let mut without = vec![false; size];
     for (j, without) in without.iter_mut().enumerate() {
@@ -176,7 +173,7 @@ fn check_diagonal(name: &str, lower: &Csc, is_fixed: impl Fn(usize) -> bool) -> 
             ));
         }
     }
-    match (first..size).find(|&dof| without[dof] && !is_fixed(dof)) {
+    match (first..size).find(|&dof| without[dof] && !may_lack(dof)) {
         Some(dof) => refuse(messages::no_stiffness(dof, is(dof))),
         None => Ok(()),
     }

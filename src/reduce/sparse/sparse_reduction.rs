@@ -5,6 +5,7 @@ use super::control::{Asked, Control, ranks};
 use super::full_space::FullSpace;
 use super::general_rows::{GeneralRows, general_rows};
 use super::host_arrays::SparseMatrix;
+use super::host_matrix::check_diagonal;
 use super::messages;
 use super::supports::{self, FixedComponent};
 use crate::error::{Argument, Error, Limit, Message};
@@ -60,11 +61,13 @@ impl SparseReduction {
         matrix.check_col_start()?;
         let dependents = &Dependents::new(&pairs.equations, matrix.size)?;
         let places = &supports::places_in_fixed(matrix.size, fixed, dependents)?;
-        let moved = dependents.without_own_stiffness(matrix.size);
-        let host = matrix.lower_triangle("K", |dof| places[dof].is_some() || moved[dof])?;
+        let host = matrix.lower_triangle("K")?;
         (control.ask)(0.0, 0)?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         let rows = pairs.rows(matrix.size, dependents)?;
+        let mut may_lack = dependents.without_own_stiffness(matrix.size);
+        rows.equations.iter().flatten().for_each(|(dof, _)| may_lack[*dof] = true);
+        check_diagonal("K", &host, |dof| places[dof].is_some() || may_lack[dof])?;
         let mut frames = pairs.frames()?;
         let may_turn = pairs.tangents.is_none();
         let GeneralRows { variables, supports, dependent } =
