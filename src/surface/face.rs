@@ -70,7 +70,7 @@ impl Face<'_> {
     pub(super) fn size(&self) -> f64 {
         let x = &self.x[..self.kind.nodes()];
         let apart = x.iter().enumerate().flat_map(|(i, a)| x[..i].iter().map(move |b| a - b));
-        apart.map(|apart| apart.norm()).fold(0.0, f64::max)
+        apart.map(|apart| apart.norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
     /// Integrals of the shape functions over the whole face; their sum is its area.

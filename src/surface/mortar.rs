@@ -28,6 +28,9 @@ use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
+/// Between master faces that are smaller than this part of a slave face nodes of the master are held in the mean alone.
+const MANY: f64 = 0.5;
+
 /// The part of a slave face over master faces, if it lies over any, and `true` if it has the functions of a face that is
 /// covered wholly.
 type Cover = (Option<Covered>, bool);
@@ -67,7 +70,10 @@ pub(super) fn pairs<'a>(
         let cover = search.cover(at, &slave.face(at), watch)?;
         match &cover {
             (None, _) => report.uncovered_faces.push(at),
-            (_, wholly) => report.faces_at_rims.extend((!wholly).then_some(at)),
+            (Some(covered), wholly) => {
+                let in_part = !wholly || covered.holds_many;
+                report.held_in_part.extend(in_part.then_some(at));
+            }
         }
         report.distances.push(cover.0.as_ref().map_or(NOWHERE, |covered| covered.range));
         faces.push(cover);
@@ -155,6 +161,8 @@ impl<'a> Search<'a> {
             return Ok((None, is_off_axis));
         }
         let mut covered = polynomials.project(face.kind, points, &parts);
+        let least = MANY * face.size();
+        covered.holds_many = parts.iter().any(|opposite| master.face(opposite.at).size() < least);
         if let Some(shapes) = shapes {
             let gaps = shapes.gaps((at, face), points, &parts);
             covered.gaps = polynomials.fit(&gaps);

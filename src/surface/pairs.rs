@@ -66,8 +66,9 @@ pub struct SurfaceReport {
     pub covered_area: f64,
     /// Slave faces that lie over nothing.
     pub uncovered_faces: Vec<usize>,
-    /// Slave faces of which a part lies over the other side.
-    pub faces_at_rims: Vec<usize>,
+    /// Slave faces of which a part lies over the other side, and those over faces that are much smaller: their pairs do not hold
+    /// all that is over them.
+    pub held_in_part: Vec<usize>,
     /// Slave faces that lie over nothing within the search distance, but point at a master beyond it, or overlap one by more:
     /// each with how far that is away, negative if they overlap. Contact there is not seen.
     pub beyond: Vec<(usize, f64)>,

@@ -6,8 +6,9 @@
 //! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
 //! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
 //!
-//! A slave face that reaches over the rim of its master, or is larger than it, may have none of its points over the master. So
-//! nodes of the master are asked too, by their own normals, if they come to lie over slave faces that pairs do not hold wholly.
+//! A slave face that reaches over the rim of its master, or is larger than it, may have none of its points over the master, and
+//! nodes of smaller master faces are held in the mean alone. So nodes of the master are asked too, by their own normals, if they
+//! come to lie over slave faces whose pairs do not hold all that is over them.
 //!
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
@@ -72,7 +73,7 @@ pub struct Penetration {
     pub master: Option<usize>,
 }
 
-/// The nodes that pairs hold, and the slave faces that they do not hold wholly.
+/// The nodes that pairs hold, and the slave faces that are asked.
 struct Held {
     /// By place of the node.
     nodes: Vec<bool>,
@@ -117,7 +118,7 @@ impl KeptSurfaces {
     }
 
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
-    /// Faces that are covered wholly, and all of whose nodes have pairs of their own, are left to these.
+    /// Faces that are covered wholly by faces of their size, and all of whose nodes have pairs of their own, are left to these.
     /// `pairs` are those of these surfaces.
     ///
     /// # Errors
@@ -193,7 +194,7 @@ impl KeptSurfaces {
         let folded = marked(&mut pairs.report.folded.iter().map(|fold| fold.node));
         let [mut uncovered, mut asked] = [(); 2].map(|()| vec![false; start.len() - 1]);
         pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
-        let in_part = pairs.report.uncovered_faces.iter().chain(&pairs.report.faces_at_rims);
+        let in_part = pairs.report.uncovered_faces.iter().chain(&pairs.report.held_in_part);
         in_part.for_each(|&at| asked[at] = true);
         let of_pairs =
             |at: usize| places[start[at]..start[at + 1]].iter().all(|&place| paired[place]);

@@ -56,6 +56,8 @@ pub(super) struct Covered {
     pub(super) gaps: Values,
     /// The least and the largest distance at the points.
     pub(super) range: [f64; 2],
+    /// Master faces under it are so small that its pairs hold several in the mean.
+    pub(super) holds_many: bool,
 }
 
 impl Covered {
@@ -255,6 +257,7 @@ impl Polynomials {
             slaves,
             gaps: [0.0; MOST_NODES],
             range: NOWHERE,
+            holds_many: false,
             masters: Vec::with_capacity(most),
             coefficients: Vec::with_capacity(slaves * most),
         };

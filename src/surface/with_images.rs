@@ -109,7 +109,7 @@ impl WithImages {
         let report = &mut found.report;
         report.slave_faces = slave.count();
         report.uncovered_faces.retain(|face| *face < slave.count());
-        report.faces_at_rims.retain(|face| *face < slave.count());
+        report.held_in_part.retain(|face| *face < slave.count());
         report.beyond.retain(|(face, _)| *face < slave.count());
         report.folded.retain(|fold| images.is_own(fold.node));
         report.folded.iter_mut().for_each(|fold| fold.into = images.home(fold.into).0);

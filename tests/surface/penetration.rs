@@ -299,3 +299,26 @@ fn a_post_between_the_points_of_a_face_is_told() {
         }
     }
 }
+
+/// The ground is the slave, wholly under the beam, and its faces are longer than the beam's: its pairs hold the beam in the mean. A
+/// node of the beam that passes through between the nodes of a face is told with its depth.
+#[test]
+fn a_node_between_those_of_a_long_face_is_told() {
+    let beam = equal(0.0, LENGTH, 20);
+    for (faces, begin, over) in [(1, 2.0, 0), (2, 2.0, 1), (3, 5.0, 1), (4, 3.0, 2)] {
+        let ground = equal(begin, LENGTH - 0.25, faces);
+        let after_dent = |deepest: f64| {
+            let sides = [(&ground[..], 0.0, true), (&beam[..], GAP, false)];
+            after(sides, 8.0, |is_ground, x| match x {
+                _ if is_ground => 0.0,
+                13.0 => -deepest,
+                _ => -0.5 * GAP,
+            })
+        };
+        assert_eq!(after_dent(GAP), Penetration::default(), "{faces}");
+        let found = after_dent(GAP + 1.5);
+        assert!((found.depth - 1.5).abs() < 1e-12, "{faces}: {found:?}");
+        assert_eq!((found.count, found.face), (1, over), "{faces}: {found:?}");
+        assert_eq!(found.node, Some(ground.len() + 13), "{faces}: {found:?}");
+    }
+}
