@@ -23,6 +23,7 @@ pub use load_case::LoadCase;
 use crate::error::{Argument, Error};
 use crate::file;
 use crate::linalg::matrix::Matrix;
+use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{
     ContactData, ContactProblem, Dependence, DependentRows, Relation, Remembered, symmetric_matrix,
@@ -283,7 +284,11 @@ impl Model {
         let slip = self.allowed_slip(case)?;
         let offset = dependence.offset(case.prescribed);
         let stiffness = (self.reduction.stiffness(), &load[..]);
-        let relation = DependentRows::new(dependence, stiffness, &offset, self.reduction.growth());
+        let lengths = case.gap.iter().chain(case.reference_slip.unwrap_or(&[])).chain(&offset);
+        let length = lengths.filter(|x| x.is_finite()).fold(0.0_f64, |most, x| most.max(x.abs()));
+        let of_rigid = Some(norm_inf(&load) / length).filter(|unit| unit.is_normal());
+        let rest = (self.reduction.growth(), of_rigid.unwrap_or(1.0));
+        let relation = DependentRows::new(dependence, stiffness, &offset, rest);
         let (gap, slip) = (case.gap, slip.as_deref());
         let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
         to(&problem)

@@ -34,12 +34,24 @@ pub struct Solved {
     pub dependent: Vec<Option<Expression>>,
 }
 
-/// Solves `equations` for unknowns that may be chosen; `count` is the number of all unknowns.
-pub fn solve(equations: &[Terms], count: usize, may_choose: &[bool]) -> Solved {
-    let mut state = Elimination::new(equations, count, may_choose);
+/// Solves `equations` for unknowns that may be chosen. Coefficients of each unknown are compared beside its `unit`: those of
+/// angles are arms, in the host's unit of length.
+pub fn solve(equations: &[Terms], units: &[f64], may_choose: &[bool]) -> Solved {
+    let in_units = |equation: &Terms| equation.iter().map(|&(k, a)| (k, a / units[k])).collect();
+    let equations: Vec<Terms> = equations.iter().map(in_units).collect();
+    let mut state = Elimination::new(&equations, units.len(), may_choose);
     state.take_singletons();
     state.eliminate();
-    state.solved()
+    let mut solved = state.solved();
+    let dependent = solved.dependent.iter_mut().flatten();
+    for (unit, expression) in dependent
+        .map(|expression| (1.0, expression))
+        .chain(solved.given.iter_mut().map(|(k, expression)| (units[*k], expression)))
+    {
+        expression.unknowns.iter_mut().for_each(|(k, a)| *a *= units[*k] / unit);
+        expression.right_sides.iter_mut().for_each(|(_, a)| *a /= unit);
+    }
+    solved
 }
 
 struct Elimination<'c> {

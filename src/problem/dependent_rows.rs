@@ -108,22 +108,24 @@ pub struct DependentRows<'a> {
     relative_load: Vec<f64>,
     /// The growth of the row of each variable; empty: none has grown.
     pub(super) growth: &'a [f64],
+    /// The unit of variables if `K` resists none: rigid bodies.
+    pub(super) of_rigid: f64,
     /// Size of the relative load without it.
     size_of_load: f64,
 }
 
 impl<'a> DependentRows<'a> {
     /// `stiffness`, column-major, and `load` are `K` and `f`; `offset` is `o`; `growth` is that of the variables' rows, empty if
-    /// none has grown.
+    /// none has grown; `of_rigid` is the unit of variables if `K` is zero, a force over a length.
     pub(crate) fn new(
         dependence: &'a Dependence,
         (stiffness, load): (&'a [f64], &'a [f64]),
         offset: &'a [f64],
-        growth: &'a [f64],
+        (growth, of_rigid): (&'a [f64], f64),
     ) -> Self {
         let size = dependence.variables();
         let stiffness = Matrix::new(size, stiffness, size.max(1));
-        let units = units(dependence, &stiffness);
+        let units = units(dependence, (&stiffness, of_rigid));
         let relative = |load: &[f64]| {
             let mut relative = times(&dependence.from_relative, load);
             let offsets = units.iter().zip(offset).map(|(unit, offset)| unit * offset);
@@ -146,6 +148,7 @@ impl<'a> DependentRows<'a> {
             units,
             relative_load,
             growth,
+            of_rigid,
             size_of_load,
         }
     }
@@ -153,7 +156,8 @@ impl<'a> DependentRows<'a> {
     /// A basis of the displacements that `K` does not resist; `None` if rounding leaves `K` energies below zero, or where
     /// `goes_on` says no.
     pub(crate) fn free_motions(&self, goes_on: GoesOn<'_>) -> Option<Vec<Vec<f64>>> {
-        let scale = units_of(&self.stiffness).map(|unit| unit.sqrt().recip()).collect();
+        let scale =
+            units_of((&self.stiffness, self.of_rigid)).map(|unit| unit.sqrt().recip()).collect();
         let all = (0..self.stiffness.size()).collect();
         let block = FreeBlock::new(self.stiffness, all, scale, goes_on)?;
         Some(block.null_vectors().map(|motion| self.dependence.relative(&motion)).collect())
@@ -176,21 +180,21 @@ impl<'a> DependentRows<'a> {
     }
 }
 
-/// The diagonal of `K`, positive: where nothing resists a variable, its largest entry.
-fn units_of(stiffness: &Matrix<'_>) -> impl Iterator<Item = f64> {
+/// The diagonal of `K`, positive: where nothing resists a variable, its largest entry, and without any `of_rigid`.
+fn units_of((stiffness, of_rigid): (&Matrix<'_>, f64)) -> impl Iterator<Item = f64> {
     let otherwise = match stiffness.largest_diagonal() {
         largest if largest > 0.0 => largest,
-        _ => 1.0,
+        _ => of_rigid,
     };
     (0..stiffness.size()).map(move |j| stiffness.unit(j, 1, otherwise))
 }
 
 /// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
-fn units(dependence: &Dependence, stiffness: &Matrix<'_>) -> Vec<f64> {
-    let largest = units_of(stiffness).fold(0.0, f64::max);
-    let otherwise = if largest > 0.0 { largest } else { 1.0 };
+fn units(dependence: &Dependence, (stiffness, of_rigid): (&Matrix<'_>, f64)) -> Vec<f64> {
+    let largest = units_of((stiffness, of_rigid)).fold(0.0, f64::max);
+    let otherwise = if largest > 0.0 { largest } else { of_rigid };
     let mut compliance = vec![0.0; dependence.to_relative.nrows()];
-    for (j, unit) in units_of(stiffness).enumerate() {
+    for (j, unit) in units_of((stiffness, of_rigid)).enumerate() {
         let (rows, values) = column(&dependence.to_relative, j);
         rows.iter().zip(values).for_each(|(&i, c)| compliance[i] += c * c / unit);
     }

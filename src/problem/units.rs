@@ -157,7 +157,8 @@ impl ChangesUnits for DependentRows<'_> {
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
         let matrix = dense(&self.stiffness, units.stiffness())?;
         let (load, offset) = (units.force.all(self.load)?, units.length.all(self.offset())?);
-        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, self.growth)))
+        let rest = (self.growth, exactly(self.of_rigid, units.stiffness())?);
+        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, rest)))
     }
 }
 

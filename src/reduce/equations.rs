@@ -191,6 +191,17 @@ impl Dependents {
         may
     }
 
+    /// The largest coefficient of each degree of freedom below `size` among the terms of all dependents; 1 of one that they do not
+    /// name.
+    pub(super) fn largest_coefficients(&self, size: usize) -> Vec<f64> {
+        let mut largest = vec![0.0_f64; size];
+        for &(dof, a) in self.terms.values().flatten() {
+            largest[dof] = largest[dof].max(a.abs());
+        }
+        largest.iter_mut().filter(|a| **a == 0.0).for_each(|a| *a = 1.0);
+        largest
+    }
+
     /// The dependents below `size`, ascending, with their terms.
     pub(super) fn of_matrix(&self, size: usize) -> impl Iterator<Item = (usize, &Terms)> {
         self.terms.range(..size).map(|(dof, terms)| (*dof, terms))

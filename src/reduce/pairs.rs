@@ -266,6 +266,13 @@ impl Rows {
         Rows { dim, equations, have_own_slaves }
     }
 
+    /// Marks the degrees of freedom of the matrix that the rows name: with those marked before they may have no stiffness of
+    /// their own.
+    pub(super) fn without_own_stiffness(&self, mut marked: Vec<bool>) -> Vec<bool> {
+        self.equations.iter().flatten().for_each(|(dof, _)| marked[*dof] = true);
+        marked
+    }
+
     /// The equations of a pair, one for each axis.
     pub(super) fn of_pair(&self, pair: usize) -> &[Terms] {
         &self.equations[self.dim * pair..self.dim * (pair + 1)]

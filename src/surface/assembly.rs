@@ -78,7 +78,7 @@ pub(super) fn pairs_of_rows(
 /// What ends the watch.
 pub(super) fn whole_rows(
     meets: impl Fn(usize) -> bool,
-    (side, planes): (&Side<'_>, &OnPlanes),
+    side: &Side<'_>,
     report: &mut SurfaceReport,
     watch: &mut Watch<'_, '_>,
 ) -> Result<BTreeMap<usize, Row>, Error> {
@@ -86,7 +86,7 @@ pub(super) fn whole_rows(
     let mut edges = Edges::default();
     for face in faces() {
         watch.goes_on()?;
-        edges.add(face.kind, face.nodes, !planes.touch_axis(&face));
+        edges.add(face.kind, face.nodes, !face.is_at_axis());
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for (at, face) in faces().enumerate() {

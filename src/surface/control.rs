@@ -21,8 +21,8 @@ use super::shape::{FaceKind, Values};
 /// The part of the centre's function that each corner takes. Each mid node takes two of them, and four remain.
 const PART: f64 = 1.0 / 16.0;
 
-/// `α` of a face's edges, if it is covered wholly or in part. A ring that touches its axis counts as covered in part: the
-/// integral of its corner there has the radius in it, and is zero with `α = 0`.
+/// `α` of a face's edges, if it is covered wholly or in part. A ring at its axis counts as covered in part: with `α = 0` the
+/// integral of its corner there has the radius as a factor, and errors of forces are enlarged by its inverse.
 fn alpha(kind: FaceKind, wholly: bool) -> f64 {
     match (kind, wholly) {
         (FaceKind::Line2 | FaceKind::T3 | FaceKind::Q4, _) => 0.0,

@@ -73,6 +73,13 @@ impl Face<'_> {
         apart.map(|apart| apart.norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
+    /// `true` of a ring that touches its axis, or is nearer to it than wide: the radius is nearly nothing at one of its corners
+    /// beside the other.
+    pub(super) fn is_at_axis(&self) -> bool {
+        let size = self.size();
+        self.is_ring && self.x[..self.kind.nodes()].iter().any(|x| x.x < size)
+    }
+
     /// Integrals of the shape functions over the whole face; their sum is its area.
     pub(super) fn integrals(&self) -> Values {
         let mut integrals = [0.0; MOST_NODES];

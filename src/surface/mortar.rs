@@ -38,7 +38,6 @@ type Cover = (Option<Covered>, bool);
 /// The search for what lies over slave faces, with the memory that it uses from face to face.
 struct Search<'a> {
     sides: [&'a Side<'a>; 2],
-    planes: &'a OnPlanes,
     own: SearchFaces<'a>,
     candidates: Candidates<'a>,
     shapes: Option<TrueSides<'a>>,
@@ -63,7 +62,7 @@ pub(super) fn pairs<'a>(
     let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
     let shapes = TrueSides::new(sides, settings, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
-    let mut search = Search { sides, planes, own, candidates, shapes, overlaps, polynomials };
+    let mut search = Search { sides, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
         watch.step()?;
@@ -80,7 +79,7 @@ pub(super) fn pairs<'a>(
     }
     let Search { candidates, shapes, .. } = search;
     candidates.look_beyond(sides, &mut report, watch)?;
-    let mut rows = rows(slave, faces, planes, (&mut report, watch))?;
+    let mut rows = rows(slave, faces, (&mut report, watch))?;
     if settings.normals == Normals::Averaged {
         let averaged = slave.node_normals(planes, watch)?;
         for (node, row) in &mut rows {
@@ -120,15 +119,8 @@ impl<'a> Search<'a> {
     ) -> Result<Cover, Error> {
         let normal = face.middle_normal();
         let mut parts = self.opposite(at, (face, normal), watch)?;
-        let Search {
-            sides: [slave, master],
-            planes,
-            own,
-            candidates,
-            shapes,
-            overlaps,
-            polynomials,
-        } = self;
+        let Search { sides: [slave, master], own, candidates, shapes, overlaps, polynomials } =
+            self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
         keep(&mut parts, points, |opposite, points| {
             let from = face.position(points[0].slave);
@@ -156,7 +148,7 @@ impl<'a> Search<'a> {
             let mut kept = one_surface(&parts, joins).into_iter();
             keep(&mut parts, points, |_, _| kept.next() == Some(true));
         }
-        let is_off_axis = !planes.touch_axis(face);
+        let is_off_axis = !face.is_at_axis();
         if parts.is_empty() {
             return Ok((None, is_off_axis));
         }
@@ -262,7 +254,6 @@ fn one_surface(
 fn rows(
     slave: &Side<'_>,
     faces: Vec<Cover>,
-    planes: &OnPlanes,
     (report, watch): (&mut SurfaceReport, &mut Watch<'_, '_>),
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let mut edges = Edges::default();
@@ -288,7 +279,7 @@ fn rows(
     for &at in &report.uncovered_faces {
         watch.goes_on()?;
         let face = slave.face(at);
-        let basis = edges.basis(face.kind, face.nodes, !planes.touch_axis(&face));
+        let basis = edges.basis(face.kind, face.nodes, !face.is_at_axis());
         let (integrals, normal) = (face.integrals(), face.middle_normal());
         *slave_area += slave.own_area(at, integrals);
         let whole = basis.functions(integrals);

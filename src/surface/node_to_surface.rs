@@ -141,7 +141,7 @@ pub(super) fn pairs(
     }
     let search_distance = candidates.reach.open;
     let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
-    let rows = whole_rows(|node| met.contains_key(&node), (slave, planes), &mut report, watch)?;
+    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, watch)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
         for (slave, part) in slaves {

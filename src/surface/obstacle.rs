@@ -123,7 +123,7 @@ fn facing(
     let mut report =
         SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    let rows = whole_rows(meets, (side, on), &mut report, watch)?;
+    let rows = whole_rows(meets, side, &mut report, watch)?;
     let pair = |node, row: Row| {
         let pair = pair_of_row([side; 2], on, (node, row), facing[&node].1);
         let slaves = pair.slaves().iter();

@@ -16,13 +16,12 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::candidates::{Candidates, Reach, SearchFaces};
-use super::exact_shape::Obstacle;
 use super::face::Face;
+use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::Local;
-use super::surfaces::{Faces, Master, Surfaces};
 use super::sweep::{Bounds, Hull};
 use super::watch::Watch;
 use crate::error::{Argument, Error};
@@ -36,24 +35,8 @@ const LEAST: f64 = 1e-6;
 /// small share of their size.
 const LEAST_OF_PAIRED: f64 = 0.1;
 
-/// Copies of both sides before the motion, for [`Self::penetration`].
-#[derive(Clone, Debug)]
-pub struct KeptSurfaces {
-    dim: usize,
-    /// Nodes of the host that stand on a side, ascending.
-    nodes: Vec<usize>,
-    /// Those of these nodes, then those of a rigid mesh; lists of faces count nodes by their places here.
-    coordinates: Vec<f64>,
-    slave: [Vec<usize>; 2],
-    master: KeptMaster,
-    clearance: f64,
-}
-
-#[derive(Clone, Debug)]
-enum KeptMaster {
-    Faces([Vec<usize>; 2]),
-    Shape(Obstacle),
-}
+/// A node is asked along the normals of so many of its faces: more meet where slivers do, all of which are near each other.
+const MOST_NORMALS: u8 = 16;
 
 /// How far the slave has passed through the master.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,35 +71,6 @@ type Found = (Penetration, HashSet<usize>);
 type Point = ([Vector3; 2], Vector3);
 
 impl KeptSurfaces {
-    /// Keeps surfaces that have been paired with a clearance, which stands between them, as half the thicknesses of shells do if
-    /// it is negative.
-    pub fn new(
-        &Surfaces { dim, coordinates, slave, master }: &Surfaces<'_>,
-        clearance: f64,
-    ) -> KeptSurfaces {
-        let of_mesh = if let Master::Faces(faces) = master { faces.nodes } else { &[] };
-        let mut nodes = [slave.nodes, of_mesh].concat();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let mut places = vec![0; nodes.last().map_or(0, |last| last + 1)];
-        nodes.iter().enumerate().for_each(|(place, &node)| places[node] = place);
-        let lists = |faces: Faces<'_>| {
-            [faces.start.to_vec(), faces.nodes.iter().map(|&node| places[node]).collect()]
-        };
-        let kept = |node: &usize| coordinates[dim * node..dim * (node + 1)].to_vec();
-        let mut kept: Vec<f64> = nodes.iter().flat_map(kept).collect();
-        let master = match master {
-            Master::Faces(faces) => KeptMaster::Faces(lists(faces)),
-            Master::RigidFaces { coordinates, faces } => {
-                kept.extend(coordinates);
-                let places = faces.nodes.iter().map(|node| nodes.len() + node);
-                KeptMaster::Faces([faces.start.to_vec(), places.collect()])
-            }
-            Master::RigidShape(shape) => KeptMaster::Shape(shape),
-        };
-        KeptSurfaces { dim, slave: lists(slave), coordinates: kept, nodes, master, clearance }
-    }
-
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
     /// Faces that are covered wholly by faces of their size, and all of whose nodes have pairs of their own, are left to these.
     /// `pairs` are those of these surfaces.
@@ -164,17 +118,6 @@ impl KeptSurfaces {
                 self.masters_through((held, near), [&asked, &masters], found, watch)
             }
         }
-    }
-
-    fn before_and_after<'s>(
-        &'s self,
-        name: &'static str,
-        moved: &'s [f64],
-        [start, nodes]: &'s [Vec<usize>; 2],
-    ) -> Result<[Side<'s>; 2], Error> {
-        let faces = Faces { start, nodes };
-        let side = |x| Side::new(name, Argument::Coordinates, (self.dim, x), faces);
-        Ok([side(&self.coordinates)?, side(moved)?])
     }
 
     fn held(&self, pairs: &SurfacePairs) -> Held {
@@ -272,7 +215,7 @@ impl KeptSurfaces {
     ) -> Result<Penetration, Error> {
         let opposite = SearchFaces::new(&slaves[1], watch)?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
-        let mut counted = HashSet::new();
+        let (mut counted, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
         for of_master in near_asked {
             watch.goes_on()?;
             let faces = [0, 1].map(|moved| masters[moved].face(of_master));
@@ -285,7 +228,8 @@ impl KeptSurfaces {
                 let is_held = face.nodes.iter().any(|place| held.nodes[*place]);
                 size.min(face.size()) * if is_held { LEAST_OF_PAIRED } else { LEAST }
             };
-            for (corner, &place) in faces[0].nodes.iter().enumerate() {
+            let nodes = faces[0].nodes.iter().enumerate();
+            for (corner, &place) in nodes.filter(|(_, place)| asks_again(&mut asked[**place])) {
                 let point = [0, 1].map(|moved| faces[moved].x[corner]);
                 let Some((depth, at)) = self.behind((point, normal), slaves, near, least) else {
                     continue;
@@ -312,7 +256,7 @@ impl KeptSurfaces {
         mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
     ) -> Result<Found, Error> {
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
-        let mut told = HashSet::new();
+        let (mut told, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
         for &at in &held.asked {
             watch.goes_on()?;
             let faces = [before.face(at), after.face(at)];
@@ -321,7 +265,10 @@ impl KeptSurfaces {
             let is_held = |place: &usize| held.nodes[*place];
             let face_is_held = !held.uncovered[at] && nodes.iter().any(is_held);
             let places = faces[0].kind.places().iter().copied().zip(nodes.iter().map(Some));
-            for (local, place) in places.chain([(faces[0].kind.centre(), None)]) {
+            let points = places.chain([(faces[0].kind.centre(), None)]);
+            let mut asks =
+                |place: Option<&usize>| place.is_none_or(|at| asks_again(&mut asked[*at]));
+            for (local, place) in points.filter(|(_, place)| asks(*place)) {
                 let is_held = place.map_or(face_is_held, is_held);
                 let node = place.map(|&place| self.nodes[place]);
                 let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
@@ -339,4 +286,11 @@ impl KeptSurfaces {
         }
         Ok((found, told))
     }
+}
+
+/// True if a node that so many of its faces have asked is asked once more, which is counted.
+fn asks_again(asked: &mut u8) -> bool {
+    let again = *asked < MOST_NORMALS;
+    *asked += u8::from(again);
+    again
 }

@@ -48,6 +48,10 @@ const NEXT_BUT_ONE: f64 = 0.02;
 /// share falls to zero there, so that rows do not jump where one node becomes nearer than another.
 const AS_NEAR: f64 = 0.9;
 
+/// The most nodes that share in a row. More are as near where a rim goes through the point at which slivers meet: each would
+/// have all masters under them.
+const MOST_SHARES: usize = 16;
+
 /// Folds the rows of nodes with little cover: each is shared out to the nearest nodes of its own faces that keep theirs. One
 /// that finds none keeps its own, and takes in others.
 pub(super) fn fold(
@@ -88,9 +92,10 @@ pub(super) fn fold(
         let squared = |home| (slave.position(home) - slave.position(node)).norm_squared();
         // Two nodes may stand at one place.
         let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
-        let into: Vec<Weight> = around.into_iter().filter(keeps).map(away).collect();
-        let nearest = into.iter().min_by(|a, b| a.1.total_cmp(&b.1));
-        let &(nearest, least) = nearest.expect("a folded node has a home");
+        let mut into: Vec<Weight> = around.into_iter().filter(keeps).map(away).collect();
+        into.sort_by(|a, b| a.1.total_cmp(&b.1));
+        into.truncate(MOST_SHARES);
+        let &(nearest, least) = into.first().expect("a folded node has a home");
         let worth = |(_, away): &Weight| (least / away - AS_NEAR).max(0.0);
         let sum: f64 = into.iter().map(worth).sum();
         let row = rows.remove(&node).expect("each node is folded once");

@@ -161,11 +161,6 @@ impl OnPlanes {
         !self.of_rings.contains(&from) || self.of_rings.contains(&node)
     }
 
-    /// `true` of a ring that touches its axis.
-    pub(super) fn touch_axis(&self, face: &Face<'_>) -> bool {
-        face.is_ring && face.nodes.iter().any(|node| self.of_rings.contains(node))
-    }
-
     /// The middle of a side and its images: on the axis, and on the planes on which some of its nodes stand.
     pub(super) fn middle(&self, side: &Side<'_>, sector: Option<Sector>) -> Vector3 {
         let mut middle = side.mean();

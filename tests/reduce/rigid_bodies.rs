@@ -103,8 +103,8 @@ fn stiffness_within_a_rigid_body_is_none() {
 }
 
 /// A rigid body of no stiffness on a rigid plane: forces of its nodes balance the load if this does not slide, `|T| <= mu N`, and
-/// acts within the base; otherwise no equilibrium exists. Its nodes have rows in the matrix that are empty, or none. The base, in
-/// the order from the left, is a line of the reference point's axes; loads nearer than a thousandth to a limit are left out.
+/// acts within the base, where it has fallen by the gap; otherwise no equilibrium exists. Its nodes have rows in the matrix that are
+/// empty, or none, and lengths have any unit. Loads nearer than a thousandth to a limit are left out.
 #[test]
 fn rigid_bodies_without_any_stiffness_obey_statics() {
     let mut statuses = [0; 2];
@@ -121,8 +121,10 @@ fn rigid_bodies_without_any_stiffness_obey_statics() {
         if slides.abs() < 1e-3 || beyond.abs() < 1e-3 {
             continue;
         }
+        let unit = 10_f64.powi(rng.i32(-12..=12));
         let (first, size) = (2 * nodes, 2 * nodes + 3);
-        let node = |(node, x): (usize, &f64)| rigid(node, [x - at[0], -at[1]], first);
+        let node =
+            |(node, x): (usize, &f64)| rigid(node, [unit * (x - at[0]), -unit * at[1]], first);
         let structure = Constrained {
             dim: 2,
             stiffness: vec![0.0; size * size],
@@ -133,13 +135,13 @@ fn rigid_bodies_without_any_stiffness_obey_statics() {
             tangents: None,
         };
         let mut load = vec![0.0; size];
-        load[first..].copy_from_slice(&[shear, -1.0, moment]);
+        load[first..].copy_from_slice(&[shear, -1.0, unit * moment]);
         let settings = Settings::default();
         let gathered = structure.gathered(&load);
         let hosts =
             [(structure.whole(&settings), &load), (structure.eliminated(&settings), &gathered)];
         for (model, load) in hosts {
-            let (gap, friction) = (vec![0.0; nodes], vec![mu; nodes]);
+            let (gap, friction) = (vec![0.1 * unit; nodes], vec![mu; nodes]);
             let law = FrictionLaw::Coulomb(&friction);
             let case = LoadCase { load, prescribed: None, gap: &gap, law, reference_slip: None };
             let monitor = &mut Monitor::new(&settings, None);
@@ -151,8 +153,13 @@ fn rigid_bodies_without_any_stiffness_obey_statics() {
             if rests {
                 // To ten times the tolerance.
                 let nodal = model.nodal_forces(&solution.certificate.force).unwrap();
-                let on_body = &nodal[nodal.len() - 3..];
-                close(on_body, &[-shear, 1.0, -moment], 1e-9, &format!("seed {seed}"));
+                let u = model.recover(Some(load), None, &solution.d).unwrap();
+                let [force, motion] = [&nodal, &u].map(|all| &all[all.len() - 3..]);
+                let on_body = [force[0], force[1], force[2] / unit];
+                close(&on_body, &[-shear, 1.0, -moment], 1e-9, &format!("seed {seed}"));
+                let height = |x: &f64| motion[1] / unit + motion[2] * (x - at[0]);
+                let heights: Vec<f64> = base.iter().map(height).collect();
+                close(&heights, &vec![-0.1; nodes], 1e-9, &format!("seed {seed}"));
             }
         }
     }

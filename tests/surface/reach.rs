@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, line, pair, pair_with_obstacle, steps};
 use fastrand::Rng;
 use signorini::surface::{
-    Faces, Master, Normals, Obstacle, PairResults, Pairing, Rims, SurfacePairs, SurfaceSettings,
-    SymmetryPlane,
+    Faces, Master, Normals, Obstacle, PairResults, Pairing, Rims, SurfacePair, SurfacePairs,
+    SurfaceSettings, SymmetryPlane,
 };
 use signorini::{Error, Limit, Monitor, Progress, Settings};
 
@@ -107,6 +107,23 @@ fn needles(count: usize, height: f64) -> Sheet {
         nodes: (0..=count).flat_map(ends).collect(),
         faces: (0..count).map(|k| vec![2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]).collect(),
     }
+}
+
+/// The rim of the master goes beside the point at which slivers meet, whose row is shared out: rows of all have as many weights as
+/// four times as many slivers have, times four, and a half more for what is shared at the rim.
+#[test]
+fn slivers_at_a_rim_have_rows_of_few_weights() {
+    let weights = |slivers: usize| {
+        let ends = [[0.01, 1.5], [-1.5, 1.5]];
+        let master = Sheet::rectangle(Shape::Q4, [10; 2], ends, (0.0, &mut Rng::with_seed(5)));
+        let sheets = TwoSheets::new(3, fan(slivers, 1e-3).turned(), master);
+        let found = sheets.pair(&SurfaceSettings::default()).unwrap();
+        let of_pair = |pair: &SurfacePair| pair.slaves().len() + pair.masters().len();
+        assert!(!found.report.folded.is_empty());
+        found.pairs.iter().map(of_pair).sum::<usize>()
+    };
+    let (few, many) = (weights(400), weights(1600));
+    assert!(many <= 6 * few, "{few}, {many}");
 }
 
 /// The search looks at a number of boxes that grows as `n log n`: sixteen times the faces, with a
@@ -352,6 +369,26 @@ fn a_uniform_pressure_passes_between_rings() {
                     assert!((sum - exact).abs() < 1e-12, "{context}, {node}: {sum}, {exact}");
                 }
             }
+        }
+    }
+}
+
+/// Rows beside a bore are those at the axis as its radius falls to nothing: quadratic faces too, whose corner at the bore would have
+/// an area as small as the radius. To 1e-7: a radius of 1e-9 moves a mesh of unit size by as much, and rows by some ten times that.
+#[test]
+fn a_bore_of_nothing_is_none() {
+    for quadratic in [false, true] {
+        let areas = |bore: f64| {
+            let (mut nodes, slave) = line(&steps(bore, 1.0, 4), quadratic, 0);
+            let (below, mut master) = line(&steps(bore, 1.0, 5), quadratic, nodes.len());
+            master.iter_mut().for_each(|face| face.swap(0, 1));
+            nodes.extend(below);
+            let settings = SurfaceSettings { axisymmetric: true, ..SurfaceSettings::default() };
+            let found = pair(2, &nodes, [&slave, &master], &settings).unwrap();
+            found.pairs.iter().map(|pair| pair.area).collect::<Vec<f64>>()
+        };
+        for (with, without) in areas(1e-9).into_iter().zip(areas(0.0)) {
+            assert!((with - without).abs() < 1e-7, "{quadratic}: {with}, {without}");
         }
     }
 }

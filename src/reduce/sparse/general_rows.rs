@@ -60,7 +60,7 @@ pub(super) fn general_rows(
     (places, dependents): (&[Option<usize>], &Dependents),
 ) -> Result<GeneralRows, Error> {
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
-    let solved = solve(&rows.equations, places.len(), &may_choose);
+    let solved = solve(&rows.equations, &units(rows, places.len(), dependents), &may_choose);
     let mut supports = Vec::new();
     for (pair, frame) in frames.iter_mut().enumerate() {
         let pair = (pair, rows.dim);
@@ -69,6 +69,19 @@ pub(super) fn general_rows(
     let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
     rows.assembled(&solved, supports, dependents)
         .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
+}
+
+/// Coefficients this much larger or smaller than those of displacements, which are 1 at most, are of another unit.
+const OTHER_UNIT: f64 = 1e4;
+
+/// The unit of each degree of freedom's coefficients: the largest of them where it is that of an angle, whose coefficients are
+/// arms. Small weights of a node in all rows are no unit of their own.
+fn units(rows: &Rows, count: usize, dependents: &Dependents) -> Vec<f64> {
+    let mut units = dependents.largest_coefficients(count);
+    units.iter_mut().filter(|unit| **unit > 1.0 / OTHER_UNIT).for_each(|unit| *unit = 1.0);
+    let of_rows = rows.equations.iter().flatten().filter(|(_, a)| a.abs() > OTHER_UNIT);
+    of_rows.for_each(|&(k, a)| units[k] = units[k].max(a.abs()));
+    units
 }
 
 /// Equation `axis` of a pair in terms of others, if it follows from them.
