@@ -24,7 +24,7 @@ rm -rf -- "$work"
 mkdir -p -- "$work"
 touch -- "$work/began"
 unset SIGNORINI_LIBRARY
-for name in results shapes mistakes solutions operators progress surfaces meshes zones pickles equations rings; do
+for name in results shapes mistakes solutions operators progress surfaces meshes zones pickles equations sectors rings; do
     "$python" -B "$root/tests/python/$name.py"
 done
 for part in loaded_pin cylinder pin_in_lug shrink_fit dovetail bolted_plates; do

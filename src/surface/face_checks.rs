@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::mesh::{ON_PLANE, Side};
+use super::digits::ON_PLANE;
+use super::mesh::Side;
 use super::shape::FaceKind;
 use super::watch::Watch;
 use crate::error::{Error, entry, index};

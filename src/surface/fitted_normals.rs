@@ -11,8 +11,9 @@
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::SQRT_2;
 
+use super::digits::ON_PLANE;
 use super::face::Face;
-use super::mesh::{ON_PLANE, Side};
+use super::mesh::Side;
 use super::normals::direction;
 use super::plane;
 use super::shape::MOST_NODES;

@@ -1,17 +1,15 @@
 //! A side of the pairing.
 
+use super::digits::{ON_PLANE, left_open};
 use super::face::Face;
 use super::pairs::Weight;
+use super::settings::SurfaceSettings;
 use super::shape::{FaceKind, MOST_NODES, Values};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, vector};
-
-/// A node is on a plane if it is nearer than this part of the size of its side: ten times the error of
-/// coordinates with seven digits.
-pub(super) const ON_PLANE: f64 = 1e-6;
 
 /// One of the two sides, checked.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +26,8 @@ pub(super) struct Side<'a> {
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,
+    /// How far apart, in the host's unit, two nodes may be that are one in a sector; without one zero.
+    pub(super) left_open: f64,
 }
 
 impl<'a> Side<'a> {
@@ -65,10 +65,14 @@ impl<'a> Side<'a> {
     /// The side with its scale, its shape checked.
     pub(super) fn checked(
         mut self,
-        (scale, is_axisymmetric): (f64, bool),
+        scale: f64,
+        settings: &SurfaceSettings,
         watch: &mut Watch<'_, '_>,
     ) -> Result<Side<'a>, Error> {
-        (self.scale, self.is_axisymmetric) = (scale, is_axisymmetric);
+        (self.scale, self.is_axisymmetric) = (scale, settings.axisymmetric);
+        if settings.sector.is_some() {
+            self.left_open = left_open(self.dim, self.coordinates);
+        }
         for face in 0..self.count() {
             watch.goes_on()?;
             self.check_shape(face)?;
@@ -171,9 +175,19 @@ impl<'a> Side<'a> {
         faces: Faces<'a>,
     ) -> Result<Side<'a>, Error> {
         let (own, is_axisymmetric, scale) = (faces.start.len().saturating_sub(1), false, 1.0);
-        let origins = &[];
-        let side =
-            Side { name, argument, dim, coordinates, faces, own, origins, is_axisymmetric, scale };
+        let (origins, left_open) = (&[][..], 0.0);
+        let side = Side {
+            name,
+            argument,
+            dim,
+            coordinates,
+            faces,
+            own,
+            origins,
+            is_axisymmetric,
+            scale,
+            left_open,
+        };
         if !coordinates.len().is_multiple_of(dim) {
             let message =
                 format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());

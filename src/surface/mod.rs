@@ -29,6 +29,7 @@ mod clip;
 mod control;
 mod curved;
 mod curved_patch;
+mod digits;
 mod exact_shape;
 mod face;
 mod face_checks;

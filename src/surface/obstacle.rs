@@ -82,7 +82,7 @@ pub(super) fn pairs(
     let settings = &settings.checked(side.dim)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
-    let side = side.checked((unit.inside, settings.axisymmetric), watch)?;
+    let side = side.checked(unit.inside, settings, watch)?;
     let mut on = OnPlanes::new(&side, settings)?;
     let images = WithImages::new(settings, (&side, &mut on), None, watch)?;
     let Some(images) = images else {

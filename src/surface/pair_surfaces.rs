@@ -66,8 +66,8 @@ fn pair_sides(
 ) -> Result<SurfacePairs, Error> {
     let settings = &settings.checked(slave.dim)?;
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
-    let slave = slave.checked((unit.inside, settings.axisymmetric), watch)?;
-    let master = master.checked((unit.inside, settings.axisymmetric), watch)?;
+    let slave = slave.checked(unit.inside, settings, watch)?;
+    let master = master.checked(unit.inside, settings, watch)?;
     let [mut on, on_master] = [OnPlanes::new(&slave, settings)?, OnPlanes::new(&master, settings)?];
     let reach = reach([(&slave, &on), (&master, &on_master)], settings);
     let within = f64::max(reach.overlap, reach.open).min(span([&slave, &master]));

@@ -8,7 +8,8 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::mesh::{ON_PLANE, Side};
+use super::digits::ON_PLANE;
+use super::mesh::Side;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;

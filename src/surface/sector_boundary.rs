@@ -11,7 +11,16 @@ use super::sector::Sector;
 use super::sweep::Sweep;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
-use crate::linalg::vector3::{self, Vector3, vector};
+use crate::linalg::vector3::{self, Vector3};
+
+/// Of the shortest edge at a node: nodes whose images miss by less may be one of which coordinates have few digits.
+const PARTNER: f64 = 0.1;
+
+/// Of the shortest edge at a node: where its image is nearer than this to an edge, surfaces meet there.
+pub(super) const CLOSE: f64 = 0.01;
+
+const MATCH: &str = "give the number of sectors of the whole or the period, and nodes of the two boundaries that match to the digits \
+                     of their coordinates";
 
 /// The nodes of a side on the second boundary, to which a motion leads, with those on the first whose images they are. Nodes on
 /// the axis are on neither.
@@ -24,12 +33,17 @@ pub(super) fn second_boundary(
     watch: &mut Watch<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
     let nodes = side.all_nodes();
-    let place = |node: &usize| vector(&side.coordinates[side.dim * node..][..side.dim]);
-    let places: Vec<Vector3> = nodes.iter().map(place).collect();
-    let near = side.nearness() / side.scale;
-    let found = at_images(&places, |x| motion.of(x), near, || watch.goes_on())?;
+    let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
+    let (rim, near) = (Rim::new(side), side.nearness() / side.scale);
+    let allowed = |node: &usize| near.max(side.left_open.min(PARTNER * rim.edge(*node)));
+    let allowed: Vec<f64> = nodes.iter().map(allowed).collect();
+    let widest = allowed.iter().copied().fold(near, f64::max);
+    let found = at_images(&places, |x| motion.of(x), widest, || watch.goes_on())?;
     let mut second = BTreeMap::new();
-    for (place, same) in found.into_iter().enumerate() {
+    for (place, mut same) in found.into_iter().enumerate() {
+        let image = motion.of(places[place]);
+        let limit = |other: usize| allowed[place].min(allowed[other]);
+        same.retain(|&other| (places[other] - image).norm() <= limit(other));
         if let [a, b, ..] = same[..] {
             let what = format!(
                 "sector: nodes {} and {} of one side stand at one place on its boundary: pair the two parts apart",
@@ -44,6 +58,97 @@ pub(super) fn second_boundary(
         second.extend(image.map(|other| (nodes[other], nodes[place])));
     }
     Ok(second)
+}
+
+/// The rim of a side, on which the boundaries of a sector are: edges and ends that one face has.
+struct Rim {
+    /// For each node the nodes beside it on the rim.
+    beside: BTreeMap<usize, Vec<usize>>,
+    /// For each node of it the distance to the nearest other node of its faces, in the host's unit.
+    edges: BTreeMap<usize, f64>,
+}
+
+impl Rim {
+    fn new(side: &Side<'_>) -> Rim {
+        let mut counts: HashMap<[usize; 2], (usize, Option<usize>)> = HashMap::new();
+        for face in 0..side.count() {
+            let (nodes, corners) = (side.nodes(face), side.corners(face));
+            let mids: HashMap<usize, usize> =
+                side.kind(nodes).mids().map(|(mid, [a, _])| (a, nodes[mid])).collect();
+            for (i, &a) in corners.iter().enumerate() {
+                let b = if side.dim == 2 { a } else { corners[(i + 1) % corners.len()] };
+                let (count, mid) = counts.entry([a.min(b), a.max(b)]).or_default();
+                *count += 1;
+                *mid = mids.get(&i).copied().filter(|_| side.dim > 2);
+            }
+        }
+        let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for ([a, b], (_, mid)) in counts.into_iter().filter(|(_, (count, _))| *count == 1) {
+            let chain = [Some(a), mid, Some(b)].into_iter().flatten().collect::<Vec<usize>>();
+            for ends in chain.windows(2) {
+                beside.entry(ends[0]).or_default().push(ends[1]);
+                beside.entry(ends[1]).or_default().push(ends[0]);
+            }
+        }
+        let mut edges = BTreeMap::new();
+        for nodes in (0..side.count()).map(|face| side.nodes(face)) {
+            for node in nodes.iter().filter(|node| beside.contains_key(node)) {
+                let place = side.of_host(*node);
+                let away = nodes.iter().filter(|other| *other != node);
+                let away = away.map(|other| (side.of_host(*other) - place).norm());
+                let shortest: &mut f64 = edges.entry(*node).or_insert(f64::INFINITY);
+                *shortest = away.fold(*shortest, f64::min);
+            }
+        }
+        Rim { beside, edges }
+    }
+
+    /// The shortest edge at a node; zero if it is not on the rim.
+    fn edge(&self, node: usize) -> f64 {
+        self.edges.get(&node).copied().unwrap_or(0.0)
+    }
+
+    /// Two nodes of the rim between which, or at which, the image of another one of its nodes is, but for little of its
+    /// shortest edge; nodes that have partners need none.
+    ///
+    /// # Errors
+    /// What ends the watch.
+    fn met(
+        &self,
+        motion: &Motion,
+        side: &Side<'_>,
+        has_partner: impl Fn(usize) -> bool,
+        watch: &mut Watch<'_, '_>,
+    ) -> Result<Option<(usize, [usize; 2])>, Error> {
+        let nodes: Vec<usize> = self.beside.keys().copied().collect();
+        let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
+        let lengths = nodes.iter().zip(&places).flat_map(|(node, x)| {
+            self.beside[node].iter().map(move |&other| (side.of_host(other) - x).norm())
+        });
+        let longest = lengths.fold(side.left_open, f64::max);
+        let found = at_images(&places, |x| motion.of(x), longest, || watch.goes_on())?;
+        for ((&node, x), near) in nodes.iter().zip(&places).zip(found) {
+            let (image, most) = (motion.of(*x), CLOSE * self.edge(node));
+            if has_partner(node) || (image - x).norm() <= most.max(side.left_open) {
+                continue;
+            }
+            let near = near.into_iter().map(|at| nodes[at]);
+            let beside = |a: usize| self.beside[&a].iter().copied().chain([a]);
+            let mut pairs = near.flat_map(|a| beside(a).map(move |b| [a, b]));
+            let is_met = |ends: &[usize; 2]| {
+                let [a, b] = ends.map(|end| side.of_host(end));
+                let way = b - a;
+                let along = (image - a).dot(&way) / way.norm_squared();
+                // A node beside itself has no way.
+                let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
+                (a + along * way - image).norm() <= most
+            };
+            if let Some(ends) = pairs.find(is_met) {
+                return Ok(Some((node, ends)));
+            }
+        }
+        Ok(None)
+    }
 }
 
 /// For each point those that are at its image, nearer than `near`.
@@ -101,14 +206,38 @@ pub(super) fn check_boundaries(
             };
             if let Some(face) = found.iter().find(holds) {
                 let message = format!(
-                    "sector: the image of slave node {}, {}, lies on slave face {} and on none of its nodes: give the number of \
-                     sectors of the whole or the period, and nodes of the two boundaries that match",
+                    "sector: the image of slave node {}, {}, lies on slave face {} and on none of its nodes: {MATCH}",
                     index(node),
                     sector.step_in_words(),
                     index(*face)
                 );
                 return Err(Error::invalid(Argument::Settings, message));
             }
+        }
+    }
+    check_rim(slave, sector, &on_boundary, watch)
+}
+
+/// Refuses a slave side on the rim of which the image of a node lies that is none of its nodes, though surfaces meet there but for
+/// the digits of coordinates.
+fn check_rim(
+    slave: &Side<'_>,
+    sector: &Sector,
+    on_boundary: &BTreeSet<usize>,
+    watch: &mut Watch<'_, '_>,
+) -> Result<(), Error> {
+    let rim = Rim::new(slave);
+    for motion in sector.steps().as_flattened() {
+        let has_partner = |node: usize| on_boundary.contains(&node);
+        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, watch)? {
+            let message = format!(
+                "sector: the image of slave node {}, {}, lies at the edge of nodes {} and {} and is none of its nodes: {MATCH}",
+                index(node),
+                sector.step_in_words(),
+                index(a),
+                index(b)
+            );
+            return Err(Error::invalid(Argument::Settings, message));
         }
     }
     Ok(())

@@ -59,6 +59,7 @@ impl OnPlanes {
             on.into_iter().for_each(|node| found.add(node, vector3::axis(0)));
         }
         if let Some(sector) = settings.sector.filter(|sector| !sector.is_shifted()) {
+            let near = near.max(side.scale * side.left_open);
             let is_on =
                 |node: &&usize| (place(node) - sector.foot(place(node), side.scale)).norm() <= near;
             found.on_axis = nodes.iter().filter(is_on).copied().collect();

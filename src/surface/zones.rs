@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
+use super::digits::ON_PLANE;
 use super::frames::tangents;
-use super::mesh::ON_PLANE;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
-use super::sector_boundary::at_images;
+use super::sector_boundary::{CLOSE, at_images};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use crate::error::{Argument, Error, Message, index};
@@ -129,7 +129,12 @@ fn check_boundary(
     let Some(sector) = joined.images.sector() else { return Ok(()) };
     let points: Vec<Vector3> = joined.pairs.iter().map(|pair| pair.point.into()).collect();
     let Bounds { low, high } = Bounds::of(points.iter().copied());
-    let near = ON_PLANE * (high - low).amax();
+    // Half rows have areas as faces have, and images miss by what the digits of coordinates leave open.
+    let exact = ON_PLANE * (high - low).amax();
+    let length = |pair: &SurfacePair| pair.area.powf(1.0 / (joined.dim - 1) as f64);
+    let allowed: Vec<f64> =
+        joined.pairs.iter().map(|pair| exact.max(CLOSE * length(pair))).collect();
+    let near = allowed.iter().copied().fold(exact, f64::max);
     let zone = |pair: usize| starts.partition_point(|start| *start <= pair) - 1;
     let mut found = Vec::new();
     for [ahead, _] in sector.steps() {
@@ -138,9 +143,11 @@ fn check_boundary(
     }
     for (pair, same, motion) in found {
         let normal = motion.turn * Vector3::from(joined.pairs[pair].normal);
+        let image = motion.of(points[pair]);
         let is_half = |other: &&usize| {
+            let is_there = (points[**other] - image).norm() <= allowed[pair].min(allowed[**other]);
             let others = Vector3::from(joined.pairs[**other].normal);
-            zone(**other) != zone(pair) && normal.dot(&others) > SAME_WAY
+            is_there && zone(**other) != zone(pair) && normal.dot(&others) > SAME_WAY
         };
         if let Some(&other) = same.iter().find(is_half) {
             let [(own, a), (others, b)] =

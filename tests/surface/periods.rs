@@ -155,3 +155,45 @@ fn wrong_periods_are_refused() {
         assert!(error.contains(words), "{error}");
     }
 }
+
+/// Where the period has more digits than the coordinates, nodes of the boundaries match up to these, and pairs are those of
+/// exact places but for what rounding moves.
+#[test]
+fn coordinates_of_few_digits_match() {
+    let scale = 0.765_432_1;
+    for (shape, ways) in [(Shape::Q4, 1), (Shape::Q8, 2), (Shape::T3, 2), (Shape::T6, 1)] {
+        let mut part = bodies(shape, ways, &mut Rng::with_seed(13)).part;
+        part.nodes.iter_mut().flatten().for_each(|x| *x *= scale);
+        let mut periods = PERIODS.map(|way| way.map(|x| scale * x));
+        periods[ways..].fill(NONE);
+        let sector = Some(Sector { periods, ..Sector::default() });
+        let settings = SurfaceSettings { sector, ..Default::default() };
+        let exact = part.pair(&settings).unwrap();
+        for digits in [1e8, 1e6, 1e5, 1e4] {
+            let mut rounded = part.clone();
+            rounded.nodes.iter_mut().flatten().for_each(|x| *x = (digits * *x).round() / digits);
+            let found = rounded.pair(&settings).unwrap();
+            assert_eq!(slaves_of(&found), slaves_of(&exact), "{shape:?} {digits}");
+            for (own, exact) in found.pairs.iter().zip(&exact.pairs) {
+                // Areas and gaps of the order of 0.05 and 0.01 by edges of 0.2, whose ends move by half of the last digit.
+                assert!((own.area - exact.area).abs() < 1.0 / digits);
+                assert!((own.gap - exact.gap).abs() < 3.0 / digits);
+            }
+        }
+        // A node that was moved along the boundary by more than a digit has no partner.
+        let node = slaves_of(&exact)[0];
+        let mut moved = part.clone();
+        let (from, way) = (moved.nodes[node], periods[0]);
+        let is_image = |x: &[f64; 3]| (0..3).all(|c| (x[c] - from[c] - way[c]).abs() < 1e-9);
+        let image = moved.nodes.iter().position(is_image);
+        if let Some(image) = image {
+            moved.nodes[image][1] += 0.002;
+            let error = moved.pair(&settings).unwrap_err().to_string();
+            assert!(error.contains("nodes of the two boundaries that match"), "{error}");
+        }
+    }
+}
+
+fn slaves_of(found: &SurfacePairs) -> Vec<usize> {
+    found.pairs.iter().map(|pair| pair.slave).collect()
+}
