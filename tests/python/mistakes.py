@@ -8,6 +8,7 @@ import warnings
 
 import numpy as np
 
+import rings
 from common import LOAD, K
 
 import signorini
@@ -30,6 +31,16 @@ class Scipy:
 
 def model(**keywords):
     return Model.sparse(SPRINGS, SLAVES, DOWN, **keywords)
+
+
+def with_more(K, more):
+    """The sum of two sparse matrices."""
+    size = len(K[2]) - 1
+    dense = np.zeros((size, size))
+    for data, rows, starts in (K, more):
+        dense[np.repeat(np.arange(size), np.diff(starts)), rows] += data
+    columns, rows = np.nonzero(dense)
+    return dense[columns, rows], rows, np.searchsorted(columns, np.arange(size + 1))
 
 
 def loads(*shape):
@@ -198,6 +209,70 @@ class Mistakes(unittest.TestCase):
         self.assertEqual(Model.from_meshes((stiff[0], held), *meshes, fixed=[0]).host_size, 16)
         with self.assertRaisesRegex(ValueError, "the two matrices are exchanged"):
             Model.from_meshes((held, stiff[0]), *meshes)
+
+    def test_matrices_of_two_meshes_in_one(self):
+        """A matrix of both, with the master first: frames that join no nodes of both, and springs between two of them."""
+        def chain(sizes, joined=()):
+            K = np.zeros((sum(sizes), sum(sizes)))
+            for begin, end in ((0, sizes[0]), (sizes[0], sum(sizes))):
+                K[begin:end, begin:end] = 2 * np.eye(end - begin) - np.eye(end - begin, k=1) - np.eye(end - begin, k=-1)
+            for a, b in joined:
+                K[a, b] = K[b, a] = -0.1
+            columns, rows = np.nonzero(K)
+            return K[rows, columns], rows, np.searchsorted(columns, np.arange(sum(sizes) + 1))
+        across = np.array([0, 0.5, 1])
+        slave = np.array([[a, b] for b in (1, 2) for a in across]), {"quad": [[0, 1, 4, 3], [1, 2, 5, 4]]}
+        master = np.array([[a, b] for b in (0, 1) for a in (0.0, 1.0)]), {"quad": [[0, 1, 3, 2]]}
+        for right in (chain((12, 8)), chain((12, 8), [(3, 15)]), chain((8, 12), [(3, 15)])):
+            self.assertEqual(Model.from_meshes(right, slave, master).host_size, 20)
+        wrong = "K has the block of the master's mesh before that of the slave's: .*; give that of the slave first"
+        with self.assertRaisesRegex(ValueError, wrong):
+            Model.from_meshes(chain((8, 12)), slave, master)
+        for per_node in (2, 3):
+            with self.assertRaisesRegex(ValueError, "exchange them"):
+                Model.from_meshes((chain((4 * per_node, 0)), chain((6 * per_node, 0))), slave, master, dofs_per_node=per_node)
+
+    def test_matrices_of_rings(self):
+        """Two meshes of rings with as many nodes: of one material by its stresses, of two by the cells that it joins."""
+        def mesh(low, high):
+            at, elements, _ = rings.mesh(np.array([0.5, 1.0, 2.0]), np.array([0, 0.4, 1.0]) * (high - low))
+            return at + [0, high], elements
+        slave, master = mesh(1.0, 2.5), mesh(-1.0, 1.0)
+        meshes = [(at, {"quad8": elements}) for at, elements in (slave, master)]
+        stiff = [rings.stiffness(*of) for of in (slave, master)]
+        many = [rings.stiffness(at, elements[:2]) for at, elements in (slave, master)]
+        fixed = [1, 43]
+
+        def model(*matrices, cells=meshes, **more):
+            whole = {"full": lambda K: K, "lower": lower}[more.get("triangle", "full")]
+            return Model.from_meshes(tuple(map(whole, matrices)), *cells, fixed=fixed, axisymmetric=True, **more)
+
+        def lower(K):
+            data, rows, starts = K
+            columns = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+            kept = rows >= columns
+            return data[kept], rows[kept], np.searchsorted(columns[kept], np.arange(len(starts)))
+        for more in {}, {"triangle": "lower"}:
+            self.assertEqual(model(*stiff, **more).host_size, 84)
+            with self.assertRaisesRegex(ValueError, "the two matrices are exchanged: .* stretched rings of the other mesh"):
+                model(*stiff[::-1], **more)
+            for K in stiff:
+                with self.assertRaisesRegex(ValueError, "both of one mesh: give one for each"):
+                    model(K, K, **more)
+        both = signorini._sparse.side_by_side(stiff[::-1])
+        with self.assertRaisesRegex(ValueError, "K has the block of the master's mesh before .* stretched rings"):
+            Model.from_meshes(both, *meshes, fixed=fixed, axisymmetric=True)
+        # Another material in two elements, and supports as springs: nothing is known, and nothing is refused.
+        two = [with_more(K, more) for K, more in zip(stiff, many)]
+        self.assertEqual(model(*two).host_size, 84)
+        # The nodes of the master count in another order.
+        order = 8 * np.arange(21) % 21
+        order[[3, 4]] = order[[4, 3]]
+        other = master[0][order], {"quad8": np.argsort(order)[master[1]]}
+        K = with_more(rings.stiffness(other[0], other[1]["quad8"]), rings.stiffness(other[0], other[1]["quad8"][:2]))
+        self.assertEqual(model(two[0], K, cells=(meshes[0], other)).host_size, 84)
+        with self.assertRaisesRegex(ValueError, "exchanged: one of them joins nodes that have no cell of its own mesh"):
+            model(K, two[0], cells=(meshes[0], other))
 
     def test_a_plane_of_symmetry_that_is_not_named(self):
         springs, left = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6])

@@ -4,10 +4,10 @@ import numpy as np
 
 from ._arrays import integers, reals
 from ._library import SignoriniError
+from ._matrices import check_matrices
 from ._mesh import TYPES, points
 from ._sector import checked, without_axis, without_cuts
 from ._skin import corners, dimension, skin, turned
-from ._sparse import columns_of, resists_turns
 from ._surfaces import Cone, Cylinder, Plane, RigidFaces, Sphere, Torus, pair_obstacle, pair_surfaces
 
 # Faces look the same way if the cosine between their normals is above this.
@@ -71,26 +71,15 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
         raise
 
 
-def check_matrices(matrices, triangle, slave, master):
-    """Refuses matrices that are not those of the meshes, whose nodes have dim degrees of freedom."""
-    sizes, meshes = [columns_of(K) for K in matrices], [_Mesh("slave", slave)]
+def check_owners(matrices, triangle, slave, master, pairing):
+    """Refuses matrices that are not those of two meshes, or of one and an obstacle."""
+    if "dofs" in pairing:
+        return
+    meshes, is_of_rings = [_Mesh("slave", slave)], bool(pairing.get("axisymmetric", False))
     if master is not slave and not isinstance(master, (Plane, Sphere, Cylinder, Cone, Torus, RigidFaces)):
         meshes.append(_Mesh("master", master))
-    asked = [mesh.coordinates.size for mesh in meshes]
-    if len(sizes) == 1 and sizes[0] < sum(asked):
-        both = "the two meshes have" if len(asked) == 2 else "the mesh has"
-        raise ValueError(f"K has {sizes[0]} columns, {both} {sum(asked)} degrees of freedom: give the matrix of all"
-                         + (", or (K of the slave's mesh, K of the master's)" if len(asked) == 2 else ""))
-    if len(sizes) == 2 and sizes != asked:
-        exchanged = "exchange them" if sizes == asked[::-1] else "give one for each mesh, that of the slave first"
-        raise ValueError(f"the two matrices have {sizes[0]} and {sizes[1]} columns, the meshes of slave and master "
-                         f"{' and '.join(map(str, asked))} degrees of freedom: {exchanged}")
-    if len(sizes) == 2 and sizes[0] == sizes[1]:
-        places = [mesh.coordinates for mesh in meshes]
-        for K, own, other in zip(matrices, places, places[::-1]):
-            if resists_turns(K, triangle, own) and not resists_turns(K, triangle, other):
-                raise ValueError("the two matrices are exchanged: one of them resists turns of its own mesh and none of the "
-                                 "other mesh; give that of the slave first")
+    per_node = pairing.get("dofs_per_node") or meshes[0].coordinates.shape[1]
+    check_matrices(matrices, triangle, meshes, per_node, is_of_rings)
 
 
 def _covered(coordinates, slave, master, pairing):

@@ -14,7 +14,7 @@ from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
-from ._meshes import check_matrices, pair_meshes
+from ._meshes import check_owners, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
@@ -287,8 +287,7 @@ class Model(Remade):
         """
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
         parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
-        if not {"dofs", "dofs_per_node"} & set(pairing):
-            check_matrices(parts, triangle, slave, master)
+        check_owners(parts, triangle, slave, master, pairing)
         K = side_by_side(parts) if len(parts) == 2 else K
         return cls.from_surfaces(K, contact, fixed=fixed, triangle=triangle, **(settings or {}))
 

@@ -150,21 +150,9 @@ def columns_of(K):
     return len(_compressed("K", K)[2]) - 1
 
 
-def resists_turns(K, triangle, places):
-    """Does a stiffness matrix resist small turns of its nodes, which are at these places, (n, D)? One that is none does not:
-    the library says what is wrong with it."""
-    data, rows, starts = _compressed("K", K)
-    data = np.asarray(reals("data of K", data), np.float64)
-    rows, starts = (np.asarray(integers(f"{name} of K", of), np.int64) for name, of in (("indices", rows), ("indptr", starts)))
-    counts = np.diff(starts)
-    if counts.min(initial=0) < 0 or not counts.sum() == len(rows) == len(data) or rows.min(initial=0) < 0 or rows.max(
-            initial=0) >= places.size:
-        return False
-    columns = np.repeat(np.arange(places.size), counts)
-    if chosen("triangle", Triangle, triangle) != Triangle.FULL:
-        off = rows != columns
-        data, rows, columns = (np.concatenate([own, other[off]]) for own, other in
-                               ((data, data), (rows, columns), (columns, rows)))
+def resists_turns(entries, places):
+    """Does a stiffness matrix of such values, rows and columns resist small turns of its nodes, which are at these places, (n, D)?"""
+    data, rows, columns = entries
     arms = places - places.mean(axis=0)
     for a, b in combinations(range(arms.shape[1]), 2):
         u = np.zeros_like(arms)
@@ -173,6 +161,23 @@ def resists_turns(K, triangle, places):
         if (abs(force) > _ROUNDING * abs(u).max() * stiffness).any():
             return True
     return False
+
+
+def entries_of(K, triangle):
+    """Values, rows and columns of all entries of a symmetric sparse matrix; None if it is no matrix."""
+    data, rows, starts = _compressed("K", K)
+    data = np.asarray(reals("data of K", data), np.float64)
+    rows, starts = (np.asarray(integers(f"{name} of K", of), np.int64) for name, of in (("indices", rows), ("indptr", starts)))
+    counts = np.diff(starts)
+    if counts.min(initial=0) < 0 or not counts.sum() == len(rows) == len(data) or rows.min(initial=0) < 0 or rows.max(
+            initial=0) >= len(counts):
+        return None
+    columns = np.repeat(np.arange(len(counts)), counts)
+    if chosen("triangle", Triangle, triangle) != Triangle.FULL:
+        off = rows != columns
+        data, rows, columns = (np.concatenate([own, other[off]]) for own, other in
+                               ((data, data), (rows, columns), (columns, rows)))
+    return data, rows, columns
 
 
 def side_by_side(matrices):
