@@ -75,8 +75,46 @@ class Rows(unittest.TestCase):
         locked = signorini.Model.sparse(sparse(K), [[0, 1]], [0, -1], fixed=[6], equations=equations)
         result = locked.solve([0, 8.0, 0, 0, 0, 0, 0], gap=0.0, mu=0.0, prescribed=[4.5])
         np.testing.assert_allclose(result.d[0, 0], -1.5)  # (8 - 6) (1 / 2 + 1 / 4), against n
+        # The head is off, and the bolt carries the load; below it what is left of the pretension presses the head.
+        load = np.array([0, 8.0, 0, 0, 0, 0, 0])
+        np.testing.assert_allclose(locked.reactions(result, load, [4.5]), [8])
+        for pull in (0.0, 2.0, 5.0):
+            load[1] = pull
+            result = locked.solve(load, gap=0.0, mu=0.0, prescribed=[4.5])
+            np.testing.assert_allclose(locked.reactions(result, load, [4.5]), [pull - result.F[0, 0]])
         with self.assertRaisesRegex(ValueError, r"give as many as dofs, shape \(1, 2\)"):
             signorini.section_equations([[2, 3]], [[4, 5], [0, 1]], 6, [0, 1])
+
+    def test_reactions_are_those_of_statics(self):
+        """A beam on supports and contact, whose nodes follow two motions through a lever: forces and moments balance."""
+        places = np.array([0.0, 1.0, 2.5, 4.0])
+        # Node i moves by y + place turn; y is half of a dof with no row, which is a fixed one with none of its entries.
+        equations = [(2 * i + 1, [20, 9], [1.0, x]) for i, x in enumerate(places)] + [(20, [8], [0.5])]
+        size = 12
+        K = np.zeros((size, size))
+        K[10, 10] = K[11, 11] = 3.0
+        K[0, 0] = K[2, 2] = K[4, 4] = K[6, 6] = 1.0
+        K[1, 1] = K[7, 7] = K[10, 11] = K[11, 10] = 2.0  # beds below two nodes, and a spring beside
+        for fixed, loads in (([8], {3: -1.0, 7: -2.0}), ([9], {3: 1.0, 5: -3.0}), ([8, 9, 10], {7: -2.0, 11: 0.5})):
+            for triangle, part in (("full", K), ("lower", np.tril(K)), ("upper", np.triu(K))):
+                f = np.zeros(size)
+                for dof, load in loads.items():
+                    f[dof] = load
+                columns, rows = np.nonzero(part.T)
+                matrix = part[rows, columns], rows, np.searchsorted(columns, np.arange(size + 1))
+                model = signorini.Model.sparse(matrix, [[2, 3], [6, 7]], [0, -1], fixed=fixed, equations=equations,
+                                               triangle=triangle)
+                result = model.solve(f, gap=0.0, mu=0.0)
+                self.assertEqual(result.status, signorini.Status.SOLVED)
+                found = dict(zip(fixed, model.reactions(result, f)))
+                u = model.recover(result.d, f)
+                up = f[1:8:2] - np.array([2 * u[1], result.F[0, 0], 0, result.F[1, 0] + 2 * u[7]])
+                # Virtual work: y moves all nodes by a half of its own motion, the turn each by its place.
+                self.assertAlmostEqual(found.get(8, 0.0), -0.5 * up.sum(), delta=1e-9)
+                self.assertAlmostEqual(found.get(9, 0.0), -(places * up).sum(), delta=1e-9)
+                self.assertAlmostEqual(found.get(10, 0.0), 3 * u[10] + 2 * u[11] - f[10], delta=1e-12)
+        with self.assertRaisesRegex(TypeError, "no matrix of the host: its reactions are"):
+            signorini.Model.condensed(np.eye(2)).reactions(result, None)
 
     def test_surfaces_have_equations_too(self):
         """Labels for all nodes, whose equations lead to the matrix: the plain model, bit by bit."""

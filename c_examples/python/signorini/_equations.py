@@ -70,6 +70,21 @@ class Equations:
         whole[known[asked]] = found[asked]
         return whole
 
+    def gathered(self, forces):
+        """Forces on all degrees of freedom, with those on dependents as forces on what these depend on."""
+        known, places = np.unique(np.concatenate([self.dependent, self.dofs]), return_inverse=True)
+        dependent, dofs = np.split(places, [len(self.dependent)])
+        found, has_row = np.zeros(len(known)), known < len(forces)
+        found[has_row] = forces[known[has_row]]
+        rows = np.repeat(np.arange(len(dependent)), np.diff(self.start))
+        while found[dependent].any():  # dependents may depend on others, in no circle
+            moved = found[dependent]
+            found[dependent] = 0.0
+            found += np.bincount(dofs, self.coefficients * moved[rows], len(known))
+        whole = np.array(forces)
+        whole[known[has_row]] = found[has_row]
+        return whole
+
 
 def turned_equations(dofs, own, turn):
     """Equations u = turn @ u' of nodes: turned axes, and images of a cyclic sector.

@@ -12,12 +12,13 @@ from ._arrays import (at, components, copied, fit, indices, integers, pairs_of, 
                       stiffness)
 from ._call import Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
+from ._equations import Equations
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._meshes import check_owners, pair_meshes
 from ._operator import HostFunctions
 from ._results import Enclosure, Output, certified
-from ._sparse import ContactPairs, Matrix, is_sparse, side_by_side, supports
+from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import warn_of_planes
@@ -447,6 +448,26 @@ class Model(Remade):
         nodal = np.zeros(self.host_size)
         self._do("model_nodal_forces", at(F), at(nodal))
         return nodal
+
+    def reactions(self, result, f=_LOADS_OF_THE_CASE, prescribed=None):
+        """Forces of the supports on the bodies, one for each of fixed, of one case.
+
+        result: what solve returned.  f, prescribed: as for recover. They are K u - f - nodal_forces(F), with what equations
+        bring from the degrees of freedom that depend on a fixed one: that of the fixed shortening of a section is the section's
+        force, positive if it pulls, that of a held reference point the force on the whole rigid body.
+        """
+        make, given, named = self._made_of or (None, (), {})
+        if make not in ("sparse", "from_surfaces"):
+            raise TypeError("the model has no matrix of the host: its reactions are K u - f - nodal_forces(F) at the fixed degrees "
+                            "of freedom, with K of the host")
+        data, rows, columns = entries_of(given[0], named["triangle"])
+        u = self.recover(result.d, f, prescribed)
+        forces = np.bincount(rows, data * u[columns], self.host_size) - self.nodal_forces(result.F)
+        if f is not None:
+            forces -= np.ravel(reals("f", f))
+        equations = named["equations"] and Equations(named["equations"])
+        forces = equations.gathered(forces) if equations else forces
+        return forces[np.asarray(named["fixed"], int)]
 
     def _loads(self, f, prescribed, cases=None, optional=False):
         """f and prescribed in the library's layout."""
