@@ -449,8 +449,14 @@ class Decks(unittest.TestCase):
                 self.assertEqual(off(line, allowed)[0], count)
                 self.assertLess(off(line, allowed)[1], 1e-15)
                 self.assertGreater(off(line, forbidden)[1], 0.1)
+        self.assertEqual(self.read("*MPC\nTIE,1\n** more\n0,2\nTIE,3,4\n*STEP\n*MPC\nTIE,5,6\n0"), self.read(
+            "*MPC\nTIE,1,2\nTIE,3,4\nTIE,5,6\n"))
         self.assertEqual(self.read("*MPC\nTIE,1,2\n"), [(0, [3], [1.0]), (1, [4], [1.0]), (2, [5], [1.0])])
-        for line, part in (("ELBOW,1,2", "the type ELBOW is not read: of .MPC those that are linear are, BEAM, LINEAR"),
+        for line, part in (("ELBOW,1,2", "the type ELBOW is not read: write it as .EQUATION, .* that are read are BEAM, LINEAR"),
+                           ("QUADRATIC,1,2,3,4", "the type QUADRATIC is not read: write it as .EQUATION"),
+                           ("PLANE,1,2,3\n0,4", "line 7: PLANE,1,2,3 0,4: the type PLANE is not read"),
+                           ("PIN,1\n0,2,3\n0,4", "line 7: PIN,1 0,2,3 0,4: PIN has 4 nodes, it must have 2"),
+                           ("0,1,2", "the type 0 is not read"), ("PIN,0,2", "there is no node 0, nodes of decks count from 1"),
                            ("PIN,1,2,3", "PIN has 3 nodes, it must have 2"), ("PIN,SET,2", "no type with numbers"),
                            ("LINK,1,9", "node 9 has no place"), ("SLIDER,4,2,3", "node 4 is 1.41 off the line"),
                            ("LINK,1,1", "nodes 1 and 1 are at one place"),
@@ -459,6 +465,14 @@ class Decks(unittest.TestCase):
                 self.read(f"{deck}*MPC\n{line}\n")
         with self.assertRaisesRegex(ValueError, "LINK,1,2: the first node lacks the direction that depends"):
             self.read(f"{deck}*MPC\nLINK,1,2\n", number=lambda node, direction: None)
+
+    def test_cards_of_two_lines(self):
+        for deck in ("*NODE,\n** a comment\nNSET=ALL\n1,0,1,0\n2,1,0,0\n*MPC\nPIN,1,2\n", "*NODE,\n1,0,1,0\n2,1,0,0\n*MPC\nPIN,1,2\n"):
+            self.assertEqual(self.read(deck), [(k, [3 + k], [1.0]) for k in range(3)])
+        for deck, part in (("*NODE, NSET=N,\n SYSTEM=C\n1,1,0,0\n", "line 2: .NODE, NSET=N, SYSTEM=C: places in a system"),
+                           ("*EQUATION,\nREMOVE\n", "line 2: .* a card with REMOVE")):
+            with self.assertRaisesRegex(ValueError, part):
+                self.read(deck)
 
     def test_places_along_other_axes(self):
         """A link between nodes at (0, 1, 0) and (1, 0, 0) lets both go aside together, along (1, -1, 0) nothing."""
@@ -496,6 +510,12 @@ class Decks(unittest.TestCase):
                            ("*TRANSFORM, NSET=N, TYPE=C\n0,0,0,0,0,1\n", "line 1: .*TYPE=C: axes of nodes are not turned"),
                            ("*EQUATION\n2\n1,1,1.,2,4,1.\n", "line 3: .*: node 2 has no direction 4"),
                            ("*EQUATION\n2\n1,1,1.,2,0,1.\n", "line 3: .*: node 2 has no direction 0"),
+                           ("*EQUATION\n2\n1,1,1.,0,1,-1.\n", "line 3: .*: there is no node 0, nodes of decks count from 1"),
+                           ("*EQUATION\n1\n-2,1,1.\n", "line 3: .*: there is no node -2"),
+                           ("*EQUATION\n2\n1,1,1e400,2,1,-1.\n", "line 3: a coefficient, .* beyond the range of numbers"),
+                           ("*EQUATION\n2\n1,1,1.,2,1,inf\n", "line 3: a coefficient, .* beyond the range"),
+                           ("*EQUATION\n2\n1,1,1e-300,2,1,1e300\n", "line 3: a coefficient, .* beyond the range"),
+                           ("*EQUATION\n2\n1,1,nan,2,1,1.\n", "line 3: a coefficient, .* beyond the range"),
                            ("*MPC, MODE=NODE\n", "line 1: .* a card with MODE=NODE is not read"),
                            ("*EQUATION, REMOVE=ALL\n", "line 1: .* a card with REMOVE=ALL is not read")):
             with self.assertRaisesRegex(ValueError, part):

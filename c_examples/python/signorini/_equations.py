@@ -1,6 +1,7 @@
 """Equations between degrees of freedom: for the library, of turned axes and rigid bodies, and from decks."""
 
 import ctypes
+from math import isfinite
 
 import numpy as np
 
@@ -153,19 +154,33 @@ def read_equations(path, number=None, coordinates=None):
     """The equations of the *EQUATION and *MPC cards of a deck of CalculiX or Abaqus.
 
     The first term of each *EQUATION is dependent, and the first node of each *MPC: BEAM, LINK, LINEAR, PIN, SLIDER and
-    TIE, for small motions. Other types are refused by name.
+    TIE, for small motions. Other types are refused by name: write them as *EQUATION.
     number: a function of node and direction, both as in the deck, that gives a dof number, or None if the node has no
     such direction; None: 3 * (node - 1) + direction - 1, without rotations.  coordinates: a dict of nodes and their
     places; None: the *NODE cards of the deck. Nodes are numbers: sets of nodes, cards with options, *INCLUDE, *TRANSFORM and
     a number in two *PARTs are refused, and without coordinates *NODE, SYSTEM=C or S, *SYSTEM, *NMAP and turned *INSTANCEs.
     BEAM is that of Abaqus, which turns with its node: what CalculiX calls so keeps a distance, as LINK.
     """
-    cards = _Cards(path, number or _solid, coordinates)
+    cards, begun, place = _Cards(path, number or _solid, coordinates), "", 0
     with open(path, encoding="utf-8", errors="replace") as deck:
         for place, line in enumerate(map(str.strip, deck), 1):
-            if line and not line.startswith("**"):
-                cards.line(place, line, [word.strip() for word in line.split(",")])
+            if not line or line.startswith("**"):
+                continue
+            # A card that ends with a comma goes on, but with no number.
+            if begun and not line.startswith("*") and not line[0].isdigit():
+                line = f"{begun} {line}"
+            elif begun:
+                cards.line(place, begun, _words(begun))
+            begun = line if line.startswith("*") and line.endswith(",") else ""
+            if not begun:
+                cards.line(place, line, _words(line))
+    if begun:
+        cards.line(place, begun, _words(begun))
     return cards.end()
+
+
+def _words(line):
+    return [word.strip() for word in line.split(",")]
 
 
 def _solid(node, direction):
@@ -180,6 +195,7 @@ class _Cards:
         self.places = {} if coordinates is None else coordinates
         self.reads_places = coordinates is None
         self.found, self.left, self.terms, self.card = [], 0, [], ""
+        self.open = None  # the place and the words of the *MPC whose nodes may go on
         self.part, self.parts = "", {}  # the *PART of these lines, and that of each node
 
     def fail(self, place, what):
@@ -187,6 +203,7 @@ class _Cards:
 
     def line(self, place, line, words):
         if line.startswith("*"):
+            self.close()
             if self.left:
                 self.fail(place, f"{self.left} terms of the equation before are missing")
             self.card = words[0].upper().replace(" ", "")
@@ -233,14 +250,33 @@ class _Cards:
 
     def mpc(self, place, line, words):
         words = [word for word in words if word]
+        if words[0] == "0" and self.open:  # a line that goes on
+            self.open[1].append(line)
+            self.open[2].extend(words[1:])
+            return
+        self.close()
+        self.open = place, [line], words
+
+    def close(self):
+        """Reads an *MPC of which all lines are known."""
+        if not self.open:
+            return
+        (place, lines, words), self.open = self.open, None
+        line = " ".join(lines)
         try:
             nodes = [int(word) for word in words[1:]]
         except ValueError:
             self.fail(place, f"{line}: this is no type with numbers of nodes")
+        self.check_nodes(place, line, nodes)
         try:
             self.found += mpc(words[0], nodes, self.places.__getitem__, self.number)
         except ValueError as error:
             self.fail(place, f"{line}: {error}")
+
+    def check_nodes(self, place, line, nodes):
+        for node in nodes:
+            if node < 1:
+                self.fail(place, f"{line}: there is no node {node}, nodes of decks count from 1")
 
     def equation(self, place, line, words):
         try:
@@ -254,6 +290,7 @@ class _Cards:
                      for node, direction, factor in zip(*[iter(words)] * 3, strict=True)]
         except ValueError:
             self.fail(place, f"{line}: this is no number of terms, or not node, direction, coefficient of each")
+        self.check_nodes(place, line, [node for node, _, _ in terms])
         for node, direction, factor in terms:
             dof = self.number(node, direction)
             if dof is None:
@@ -266,9 +303,13 @@ class _Cards:
             (dependent, first), *others = self.terms
             if not first:
                 self.fail(place, "the coefficient of the first term is 0")
-            self.found.append((dependent, [dof for dof, _ in others], [-factor / first for _, factor in others]))
+            factors = [-factor / first for _, factor in others]
+            if not all(map(isfinite, [first, *factors])):
+                self.fail(place, "a coefficient, or its part of the first, is beyond the range of numbers")
+            self.found.append((dependent, [dof for dof, _ in others], factors))
 
     def end(self):
+        self.close()
         if self.left:
             raise ValueError(f"{self.path}: {self.left} terms of the last equation are missing")
         return self.found

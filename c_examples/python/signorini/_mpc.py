@@ -1,4 +1,4 @@
-"""Abaqus' types of *MPC whose equations are linear, for small motions."""
+"""Types of *MPC, for small motions."""
 
 import numpy as np
 
@@ -10,7 +10,8 @@ def mpc(kind, nodes, place, number):
     dof number, or None if the node has no such direction."""
     kind = kind.upper()
     if kind not in KINDS:
-        raise ValueError(f"the type {kind} is not read: of *MPC those that are linear are, {', '.join(sorted(KINDS))}")
+        raise ValueError(f"the type {kind} is not read: write it as *EQUATION, for small motions; types of *MPC that are read are "
+                         f"{', '.join(sorted(KINDS))}")
     made, count = KINDS[kind]
     if len(nodes) != count:
         raise ValueError(f"{kind} has {len(nodes)} nodes, it must have {count}")
