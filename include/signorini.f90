@@ -404,13 +404,14 @@ module signorini
     end type
 
     type, bind(C) :: signorini_penetration
-        integer(c_int32_t) :: struct_size = 64
+        integer(c_int32_t) :: struct_size = 72
         integer(c_int32_t) :: points = 0
         real(c_double) :: depth = 0
         real(c_double) :: point(3) = 0
         integer(c_int64_t) :: face = 0
         integer(c_int64_t) :: node = 0
         integer(c_int64_t) :: master_face = 0
+        integer(c_int64_t) :: zone = 0
     end type
 
     type, bind(C) :: signorini_mesh

@@ -549,6 +549,7 @@ struct signorini_penetration {
     int64_t node;
     /** The master face that it has passed through; -1 of an obstacle that is a shape. */
     int64_t master_face;
+    int64_t zone; /**< Of joined pairs the zone whose faces these are, in their order, from 0. */
 };
 
 /**
@@ -563,7 +564,7 @@ struct signorini_penetration {
  * clearance of the settings stands between the surfaces here too. A point that has passed
  * through the whole of a shape, as a bar, and is outside again is not found.
  *
- * @param contact      the pairs of one zone, as they were made
+ * @param contact      the pairs; of joined ones each zone is asked, points are those of all
  * @param u            displacements of all your degrees of freedom, as signorini_model_recover
  *                     writes them; at least up to the largest one of the nodes
  * @param penetration  out: what is found; set penetration->struct_size before

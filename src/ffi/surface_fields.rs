@@ -11,7 +11,7 @@ use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
 use crate::monitor::Monitor;
 use crate::settings::Settings;
-use crate::surface::{NodalFields, PairResults};
+use crate::surface::{NodalFields, PairResults, Penetration};
 
 /// Fields at the nodes of your mesh. Set struct_size, and the pointers of the arrays that you want.
 /// A call writes the nodes in pairs of its contact, on both sides, and leaves the others as they
@@ -208,6 +208,8 @@ pub struct SignoriniPenetration {
     pub node: i64,
     /// The master face that it has passed through; -1 of an obstacle that is a shape.
     pub master_face: i64,
+    /// Of joined pairs the zone whose faces these are, in their order, from 0.
+    pub zone: i64,
 }
 
 /// Checks after a solution if parts of the slave's surface have passed through the master or the
@@ -221,7 +223,7 @@ pub struct SignoriniPenetration {
 /// clearance of the settings stands between the surfaces here too. A point that has passed
 /// through the whole of a shape, as a bar, and is outside again is not found.
 ///
-/// @param contact      the pairs of one zone, as they were made
+/// @param contact      the pairs; of joined ones each zone is asked, points are those of all
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover
 ///                     writes them; at least up to the largest one of the nodes
 /// @param penetration  out: what is found; set penetration->struct_size before
@@ -232,28 +234,33 @@ pub unsafe extern "C" fn signorini_surface_penetration(
     penetration: *mut SignoriniPenetration,
 ) -> i32 {
     c_entry!(|arrays| {
-        let at = arrays.at(1, "contact");
-        let contact = at.handle(contact)?;
-        let Some(kept) = &contact.kept else {
-            return at.refuse("is joined of zones: ask the pairs of each zone");
-        };
+        let contact = arrays.at(1, "contact").handle(contact)?;
         let (dofs, dim) = (contact.dofs(), contact.found.dim);
         let length = dofs.iter().max().map_or(0, |last| last + 1);
         let u = arrays.at(2, "u").required(u, length)?;
         let place = arrays.at(3, "penetration").out_structure(penetration)?;
         let moved = |node: usize, axis: usize| u[dofs[dim * node + axis]];
         let monitor = &mut Monitor::new(&Settings::default(), None);
-        let found = kept.penetration(&contact.found, moved, monitor).map_err(refused(|_| 2))?;
+        let (mut found, mut points, mut zone) = (Penetration::default(), 0, 0);
+        for (at, kept) in contact.kept.iter().enumerate() {
+            let passed = kept.surfaces.penetration(&kept.pairs, moved, monitor);
+            let passed = passed.map_err(refused(|_| 2))?;
+            points += passed.count;
+            if passed.count > 0 && passed.depth >= found.depth {
+                (found, zone) = (passed, at as i64);
+            }
+        }
         let counted =
             |index: Option<usize>| index.map_or(-1, |index| index as i64 + contact.numbering.base);
         let told = SignoriniPenetration {
             struct_size: size_of::<SignoriniPenetration>() as u32,
-            points: i32::try_from(found.count).unwrap_or(i32::MAX),
+            points: i32::try_from(points).unwrap_or(i32::MAX),
             depth: found.depth,
             point: found.point,
-            face: counted((found.count > 0).then_some(found.face)),
+            face: counted((points > 0).then_some(found.face)),
             node: counted(found.node),
             master_face: counted(found.master),
+            zone,
         };
         place.write(0, &told);
         Ok(0)

@@ -91,7 +91,10 @@ pub unsafe extern "C" fn signorini_surface_join(
         let joined = join_zones(&parts).map(|found| {
             let (nodes, numbering) = (first.contact.nodes, first.contact.numbering.clone());
             let told = joined_zones(&zones, &found, &parts);
-            SignoriniSurfacePairs::new(found.contact, nodes, numbering, told)
+            let kept = zones.iter().flat_map(|zone| zone.contact.kept.iter().cloned()).collect();
+            let mut joined = SignoriniSurfacePairs::new(found.contact, nodes, numbering, told);
+            joined.kept = kept;
+            joined
         });
         place.fill(joined, |_| ZONES)
     })

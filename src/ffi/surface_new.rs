@@ -3,6 +3,7 @@
 use std::ffi::CString;
 use std::mem::take;
 use std::ptr::null;
+use std::sync::Arc;
 
 use super::args::{Arrays, c_entry};
 use super::guard::{Outcome, refused};
@@ -24,9 +25,9 @@ use crate::surface::{
 /// one at once. It holds copies: your arrays may go once it is made. signorini_surface_free
 /// releases it.
 pub struct SignoriniSurfacePairs {
-    pub(super) found: SurfacePairs,
-    /// Both sides; none of joined pairs.
-    pub(super) kept: Option<KeptSurfaces>,
+    pub(super) found: Arc<SurfacePairs>,
+    /// Both sides, of joined pairs those of each zone.
+    pub(super) kept: Vec<Kept>,
     /// Nodes of the host.
     pub(super) nodes: usize,
     pub(super) numbering: Numbering,
@@ -46,6 +47,13 @@ pub struct SignoriniSurfacePairs {
     pub(super) rows: SignoriniPairs,
     /// Memory that `rows` points to beside `arrays`.
     _indices: [Vec<i64>; 2],
+}
+
+/// The sides of a zone, with its own pairs.
+#[derive(Clone)]
+pub(super) struct Kept {
+    pub(super) pairs: Arc<SurfacePairs>,
+    pub(super) surfaces: Arc<KeptSurfaces>,
 }
 
 // SAFETY: the pointers of `rows` are to arrays that the pairs hold themselves and nobody changes.
@@ -214,7 +222,8 @@ impl<'h> Host<'h> {
         })?;
         let zones = JoinedZones { summary: found.summary(), ..JoinedZones::default() };
         let pairs = SignoriniSurfacePairs::new(found, coordinates.len() / dim, numbering, zones);
-        Ok(SignoriniSurfacePairs { kept: Some(kept), slave_faces: slave, ..pairs })
+        let kept = Kept { pairs: Arc::clone(&pairs.found), surfaces: Arc::new(kept) };
+        Ok(SignoriniSurfacePairs { kept: vec![kept], slave_faces: slave, ..pairs })
     }
 }
 
@@ -282,8 +291,8 @@ impl SignoriniSurfacePairs {
             slave_faces: [vec![0], Vec::new()],
             zones,
             arrays,
-            found,
-            kept: None,
+            found: Arc::new(found),
+            kept: Vec::new(),
         }
     }
 

@@ -350,7 +350,7 @@ FIELD(signorini_resultant, moment, double[3], 32);
 FIELD(signorini_resultant, friction_work, double, 56);
 FIELD(signorini_resultant, pressed_area, double, 64);
 
-SIZE(signorini_penetration, 64);
+SIZE(signorini_penetration, 72);
 FIELD(signorini_penetration, struct_size, uint32_t, 0);
 FIELD(signorini_penetration, points, int32_t, 4);
 FIELD(signorini_penetration, depth, double, 8);
@@ -358,6 +358,7 @@ FIELD(signorini_penetration, point, double[3], 16);
 FIELD(signorini_penetration, face, int64_t, 40);
 FIELD(signorini_penetration, node, int64_t, 48);
 FIELD(signorini_penetration, master_face, int64_t, 56);
+FIELD(signorini_penetration, zone, int64_t, 64);
 
 SIZE(signorini_mesh, 64);
 FIELD(signorini_mesh, struct_size, uint32_t, 0);

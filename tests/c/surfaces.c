@@ -741,32 +741,48 @@ static void refused_results(void)
     signorini_surface_free(contact);
 }
 
-/* A line 0.1 above another one, with nothing between them, moves down by 0.3: both its nodes and its middle are 0.2 deep. */
+/* A line 0.1 above another one, with nothing between them, moves down by 0.3: both its nodes and its middle are 0.2 deep. A
+ * shorter line of another zone, 0.3 above, moves by 0.8, and is 0.5 deep. */
 static void penetration(void)
 {
-    static const double x[10] = {0, 0.1, 1, 0.1, -1, 0, 0.5, 0, 2, 0}, still[10];
-    static const double down[10] = {0, -0.3, 0, -0.3};
-    const int64_t above[2] = {1, 2}, below[4] = {5, 4, 4, 3};
-    const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = above};
+    static const double x[14] = {0, 0.1, 1, 0.1, -1, 0, 0.5, 0, 2, 0, 0.2, 0.3, 0.8, 0.3}, still[14];
+    static const double down[14] = {0, -0.3, 0, -0.3}, both[14] = {0, -0.3, 0, -0.3, 0, 0, 0, 0, 0, 0, 0, -0.8, 0, -0.8};
+    const int64_t above[2][2] = {{1, 2}, {6, 7}}, below[4] = {5, 4, 4, 3};
     const signorini_faces master = {.struct_size = sizeof master, .face_nodes = 2, .count = 2, .nodes = below};
+    const char *const name[2] = {"lower", "upper"};
     signorini_penetration found = {.struct_size = sizeof found};
-    signorini_surface_pairs *contact = NULL;
+    signorini_surface_pairs *contact[2], *joined = NULL;
+    signorini_contact_zone zones[2];
     signorini_surface_settings settings;
     CHECK_STATUS(signorini_surface_settings_default(&settings, sizeof settings), 0);
     settings.search_distance = 0.05;
     settings.index_base = 1;
-    CHECK_STATUS(signorini_surface_pair(2, 5, x, &slave, &master, &settings, &contact), 0);
-    CHECK(surface_data(contact).pairs == 0);
-    CHECK_STATUS(signorini_surface_penetration(contact, still, &found), 0);
-    CHECK(found.points == 0 && found.depth == 0 && found.face == -1 && found.node == -1);
-    CHECK_STATUS(signorini_surface_penetration(contact, down, &found), 0);
-    CHECK(found.points == 3 && found.face == 1 && found.master_face > 0);
-    CHECK_NEAR(found.depth, 0.2);
-    CHECK_NEAR(found.point[1], -0.2);
-    CHECK_STATUS(signorini_surface_penetration(contact, down, NULL), -3);
-    const double nowhere[10] = {0, NAN};
-    CHECK_STATUS(signorini_surface_penetration(contact, nowhere, &found), -2);
-    signorini_surface_free(contact);
+    for (int i = 0; i < 2; i++) {
+        const signorini_faces slave = {.struct_size = sizeof slave, .face_nodes = 2, .count = 1, .nodes = above[i]};
+        CHECK_STATUS(signorini_surface_pair(2, 7, x, &slave, &master, &settings, &contact[i]), 0);
+        CHECK(surface_data(contact[i]).pairs == 0);
+        zones[i] = (signorini_contact_zone){.struct_size = sizeof zones[i], .contact = contact[i], .name = name[i]};
+    }
+    CHECK_STATUS(signorini_surface_join(2, zones, &joined), 0);
+    signorini_surface_free(contact[1]);
+    for (int i = 0; i < 2; i++) {
+        const signorini_surface_pairs *const asked = i ? joined : contact[0];
+        CHECK_STATUS(signorini_surface_penetration(asked, still, &found), 0);
+        CHECK(found.points == 0 && found.depth == 0 && found.face == -1 && found.node == -1 && found.zone == 0);
+        CHECK_STATUS(signorini_surface_penetration(asked, down, &found), 0);
+        CHECK(found.points == 3 && found.face == 1 && found.master_face > 0 && found.zone == 0);
+        CHECK_NEAR(found.depth, 0.2);
+        CHECK_NEAR(found.point[1], -0.2);
+        CHECK_STATUS(signorini_surface_penetration(asked, down, NULL), -3);
+        const double nowhere[14] = {0, NAN};
+        CHECK_STATUS(signorini_surface_penetration(asked, nowhere, &found), -2);
+        if (i == 0)
+            signorini_surface_free(contact[0]);
+    }
+    CHECK_STATUS(signorini_surface_penetration(joined, both, &found), 0);
+    CHECK(found.points == 6 && found.face == 1 && found.zone == 1);
+    CHECK_NEAR(found.depth, 0.5);
+    signorini_surface_free(joined);
 }
 
 int main(void)

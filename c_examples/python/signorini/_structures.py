@@ -197,7 +197,7 @@ class PenetrationData(ctypes.Structure):
 
     _fields_ = [
         ("struct_size", u32), ("points", i32), ("depth", real), ("point", real * 3), ("face", i64),
-        ("node", i64), ("master_face", i64),
+        ("node", i64), ("master_face", i64), ("zone", i64),
     ]
 
 
