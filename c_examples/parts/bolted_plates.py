@@ -3,10 +3,11 @@
     python3 c_examples/parts/bolted_plates.py [OUT]
 
 A quarter of a bolt M10 with head and nut and of two round plates, three contact zones with friction 0.2, and a
-section through the bolt whose shortening is one more unknown: its load is the pretension, then it is locked. The
-shortening beside the resiliences of VDI 2230 (2003); what the bolt takes of a pull beside its head lies between nothing and
-the load factor there for a pull under its head, and with it follows the load at which the plates open. Once they are apart the
-bolt carries all of it. mm, N, MPa.
+section through the bolt whose shortening is one more unknown: its load is the pretension, then it is locked. The shortening beside
+the resiliences of VDI 2230 (2003). Then the plates are pulled apart, under the head and the nut, as VDI has it with the load
+introduction factor n = 1: what the bolt takes of the pull and the load at which the plates open are VDI's figures. Pulled beside
+the head the plates take more of it. The force in the locked section is the reaction of its shortening. Once the plates are apart
+the bolt carries all of it. mm, N, MPa.
 """
 
 import numpy as np
@@ -17,6 +18,7 @@ from part import Part, Zone, dofs, signorini, told
 SHANK, HOLE, HEAD, PLATE = 5.0, 5.5, 8.0, 24.0  # radii
 HIGH, THICK = 7.0, 15.0  # of a head, of a plate
 YOUNG, MU, PRETENSION = 210000.0, 0.2, 20000.0
+PULLS = 2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 20000.0, 21000.0, 22000.0, 24000.0, 25000.0
 
 
 def tower(mesh, body, region, cells, levels):
@@ -73,7 +75,7 @@ def level(height, low=0.0, high=PLATE):
     return test
 
 
-def parts(cells=3, pulls=(2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 20000.0, 21000.0, 22000.0, 24000.0)):
+def parts(cells=3, pulls=PULLS, under_head=False):
     """The assembly to be tightened, and a function of the shortening that makes the locked one, with its loads."""
     mesh = bodies(cells)
     zones = {"head": Zone(("upper bolt", level(THICK, SHANK, HEAD)), ("upper plate", level(THICK)), MU),
@@ -92,7 +94,7 @@ def parts(cells=3, pulls=(2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 20000.0, 21
     tight[shortening] = PRETENSION / 4
     pull = np.zeros_like(tight)
     for body, side in (("upper plate", 1), ("lower plate", -1)):
-        faces = mesh.faces(body, level(side * THICK, HEAD, 12.5))
+        faces = mesh.faces(body, level(side * THICK, *((HOLE, HEAD) if under_head else (HEAD, 12.5))))
         load = mesh.load(faces, np.array([0.0, 0.0, side]))
         pull[:-1] += load / abs(load.sum()) / 4
     common = dict(symmetry=((0, 0.0), (1, 0.0)), equations=equations, unknowns=1)
@@ -100,7 +102,7 @@ def parts(cells=3, pulls=(2000.0, 6000.0, 10000.0, 14000.0, 18000.0, 20000.0, 21
     def locked(value):
         return Part(mesh, zones, sorted(fixed), [(force * pull, {shortening: value}) for force in (0.0, *pulls)],
                     **common)
-    return Part(mesh, zones, sorted(fixed), [(tight, {})], **common), locked, pulls
+    return Part(mesh, zones, sorted(fixed), [(tight, {})], **common), locked
 
 
 def resiliences():
@@ -121,35 +123,50 @@ def force(model, result, zone):
     return 4 * abs(model.pairs[zone].resultant(result.zone(zone)).force[2])
 
 
+def pulled(part, K, slip, pulls):
+    """What the bolt takes of a first pull, and the load at which the plates open, of a locked bolt."""
+    forces, pressed = [], []
+    for pull, (result, _), (loads, motions) in zip((0.0, *pulls), part.solve(K, slip), part.steps):
+        forces.append(force(part, result, "head"))
+        clamped = force(part, result, "plates")
+        pressed.append(clamped)
+        report = result.report
+        print(f"pull {pull:6.0f} N: bolt {forces[-1]:8.1f}, plates pressed by {clamped:8.1f}; "
+              f"{report.pairs_open} pairs open, {report.factorisations} systems")
+        told("  bolt = plates + pull, N", forces[-1], clamped + pull, 1e-6, "equilibrium")
+        # The shortening is the last of the supports.
+        section = part.model.reactions(result, loads, [0.0] * len(part.fixed) + list(motions.values()))[-1]
+        told("  section of the bolt, N", 4 * section, forces[-1], 1e-6, "equilibrium")
+    told("locked, force under the head, N", forces[0], PRETENSION, 1e-6, "the step before")
+    told("bolt at the last pull, N", forces[-1], pulls[-1], 1e-6, "statics: the plates are apart")
+    # Plates part from the outside in, and the force ratio grows before they are apart.
+    last = max(k for k, clamped in enumerate(pressed) if clamped > 0)
+    at, falls = (0.0, *pulls)[last - 1:last + 1], pressed[last - 1] - pressed[last]
+    return (forces[1] - forces[0]) / pulls[0], at[1] + pressed[last] * (at[1] - at[0]) / falls
+
+
 def main():
-    tightened, locked, pulls = parts()
+    tightened, _ = parts()
     K = tightened.mesh.stiffness()
     (result, u), = tightened.solve(K)
     bolt, plates = resiliences()
     told("pretension, force under the head, N", force(tightened, result, "head"), PRETENSION, 1e-6,
          "equilibrium")
     told("shortening, mm", u[-1], PRETENSION * (bolt + plates), 0.1, "VDI 2230, resiliences")
+    _, locked = parts(under_head=True)
+    print("pulled under the head and the nut")
+    taken, opens = pulled(locked(u[-1]), K, result.d[:, 1:], PULLS)
+    ratio = plates / (bolt + plates)
+    told("force ratio, n = 1", taken, ratio, 0.02, "VDI 2230, resiliences")
+    told("opening load, N", opens, PRETENSION / (1 - ratio), 0.01, "VDI 2230, pretension / (1 - force ratio)")
+    _, locked = parts()
+    print("pulled beside the head and the nut")
     model = locked(u[-1])
-    forces, pressed = [], []
-    for pull, (result, _) in zip((0.0, *pulls), model.solve(K, result.d[:, 1:])):
-        forces.append(force(model, result, "head"))
-        clamped = force(model, result, "plates")
-        pressed.append(clamped)
-        report = result.report
-        print(f"pull {pull:6.0f} N: bolt {forces[-1]:8.1f}, plates pressed by {clamped:8.1f}; "
-              f"{report.pairs_open} pairs open, {report.factorisations} systems")
-        told("  bolt = plates + pull, N", forces[-1], clamped + pull, 1e-6, "equilibrium")
-    told("locked, force under the head, N", forces[0], PRETENSION, 1e-6, "the step before")
-    taken, most = (forces[1] - forces[0]) / pulls[0], plates / (bolt + plates)
-    print(f"the bolt takes {taken:.3f} of a pull, {taken / most:.2f} times the {most:.3f} that VDI 2230 has for one under its head")
-    if not 0 < taken < most:
+    beside, opens = pulled(model, K, result.d[:, 1:], PULLS)
+    print(f"force ratio {beside:.3f}, n = {beside / taken:.2f} of VDI 2230: the plates take more of a pull beside the head")
+    if not 0 < beside < taken:
         raise SystemExit("a pull beside the head is taken by the plates in part")
-    # Plates part from the outside in, and the force ratio grows before they are apart.
-    last = max(k for k, clamped in enumerate(pressed) if clamped > 0)
-    at, falls = (0.0, *pulls)[last - 1:last + 1], pressed[last - 1] - pressed[last]
-    told("opening load, N", at[1] + pressed[last] * (at[1] - at[0]) / falls, PRETENSION / (1 - taken), 0.02,
-         "VDI 2230, pretension / (1 - force ratio)")
-    told("bolt at the last pull, N", forces[-1], pulls[-1], 1e-6, "statics: the plates are apart")
+    told("opening load, N", opens, PRETENSION / (1 - beside), 0.02, "pretension / (1 - this force ratio)")
     model.write("bolted_plates")
 
 
