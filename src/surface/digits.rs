@@ -13,7 +13,7 @@ const FEW: usize = 8;
 /// Digits that are looked at: those behind come from the product with another unit.
 const SEEN: usize = 13;
 
-/// The error of two places of one point in coordinates of five digits, relative to the size of a mesh.
+/// How far apart two places of one point may be in coordinates of five digits, relative to the largest of these.
 const MOST: f64 = 2e-4;
 
 /// How far apart, in the host's unit, two nodes may be that stand at one place but for the digits of their coordinates.
@@ -21,7 +21,8 @@ pub(super) fn left_open(dim: usize, coordinates: &[f64]) -> f64 {
     let Bounds { low, high } = Bounds::of(coordinates.chunks_exact(dim).map(vector));
     let size = (high - low).amax();
     let rounding = last_digit(coordinates) * (dim as f64).sqrt();
-    f64::max(ON_PLANE * size, rounding.min(MOST * size))
+    let largest = low.amax().max(high.amax());
+    f64::max(ON_PLANE * size, rounding.min(MOST * largest))
 }
 
 /// The place of the last digit that the largest of some numbers has, if none has more than a few: .001 of 12.345 and .25;

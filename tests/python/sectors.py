@@ -193,6 +193,16 @@ class Partners(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no node is the image of another, .*; the image of node"):
             signorini.sector_equations(places, signorini.Period((1.0, 0.0)))
 
+    def test_a_part_far_from_the_axis(self):
+        """Digits count from the coordinates, not from the size of the part."""
+        def place(out, along, up):
+            angle = 2 * np.pi / 61 * along
+            return (50 + out) * np.cos(angle), (50 + out) * np.sin(angle), up
+        places, _ = lattice((3, 4, 2), place)
+        for digits in (None, -8, -7, -6, -5):
+            found = signorini.sector_equations(rounded(places, digits), signorini.Sector(61, (0.0, 0.0, 0.0)))
+            self.assertEqual(len(found), 36)
+
     def test_little_digits_are_told(self):
         """Nodes so near to each other that the last digit is more than a hundredth of their distance."""
         places, _ = lattice((200, 3), lambda out, along: (
