@@ -1880,7 +1880,7 @@ contains
     end subroutine
 
     ! Joins the pairs of zones on one mesh, each with a name. laws: of each zone, absent: no friction. numbers(:, zones):
-    ! the parameters of each law, one set for all pairs of the zone.
+    ! the parameters of each law, one set for all pairs of the zone; of a law without parameters zeros.
     subroutine surfaces_join(self, zones, names, info, laws, numbers, message)
         class(contact_surfaces), intent(inout) :: self
         type(contact_surfaces), intent(in) :: zones(:)
@@ -1893,20 +1893,27 @@ contains
         character(kind=c_char), allocatable, target :: letters(:, :)
         real(c_double), allocatable, target :: friction(:, :)
         type(refusal) :: wrong
-        integer :: i, k, given_numbers
+        integer :: i, k, given_numbers, given_columns
         call self%release()
         call check_size(wrong, 2, 'names', size(names), size(zones), 'one for each zone')
         if (present(laws)) call check_size(wrong, 4, 'laws', size(laws), size(zones), 'one for each zone')
         if (present(numbers)) call check_size(wrong, 5, 'numbers', size(numbers, 2), size(zones), &
             'a column for each zone')
         given_numbers = 0
+        given_columns = 0
+        if (present(numbers)) given_columns = size(numbers, 2)
         if (present(numbers)) given_numbers = size(numbers, 1)
+        if (present(numbers) .and. .not. present(laws)) call refuse(wrong, 4, 'laws is missing: numbers are those of ' // &
+            'the law of each zone, as SIGNORINI_LAW_COULOMB')
         if (present(laws)) then
             do i = 1, size(laws)
                 if (laws(i) < 0 .or. laws(i) > ubound(law_numbers, 1) .or. laws(i) == SIGNORINI_LAW_BY_PAIR) cycle
                 if (law_numbers(laws(i)) > given_numbers) call refuse(wrong, 5, 'numbers has ' // text(given_numbers) // &
                     ' rows: the law ' // text(laws(i)) // ' of zone ' // text(i) // ' has ' // &
                     text(law_numbers(laws(i))) // ' parameters')
+                if (law_numbers(laws(i)) > 0 .or. i > given_columns) cycle
+                if (any(abs(numbers(:, i)) > 0)) call refuse(wrong, 5, 'numbers(:, ' // text(i) // ') is not zero, and the ' // &
+                    'law ' // text(laws(i)) // ' of zone ' // text(i) // ' has no parameters: give the law of these numbers')
             end do
         end if
         if (refused(wrong, info, message)) return
@@ -1921,7 +1928,8 @@ contains
             if (present(laws)) given(i)%law = number(laws(i))
             given(i)%contact = zones(i)%handle
             given(i)%name = c_loc(letters(1, i))
-            given(i)%friction = c_loc(friction(1, i))
+            if (given(i)%law < 0 .or. given(i)%law > ubound(law_numbers, 1)) cycle
+            if (law_numbers(given(i)%law) > 0) given(i)%friction = c_loc(friction(1, i))
         end do
         call finish(signorini_surface_join(size(zones, kind=c_int64_t), c_loc(given), self%handle), info, message, &
             [1, 1, 1])

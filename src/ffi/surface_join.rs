@@ -196,6 +196,13 @@ impl<'h> Zone<'h> {
         let laws = ["law", "friction"].map(|name| at.named(name));
         let friction = law::read((laws[0], given.law), (laws[1], given.friction), 1)
             .map_err(|failure| failure.explained(&at.to_string()))?;
+        if friction.law().parameters().is_empty() && !given.friction.is_null() {
+            return at.refuse_part(format!(
+                "friction is given, and its law, {}, has no parameters: give the law of these numbers, as \
+                 SIGNORINI_LAW_COULOMB, or NULL",
+                friction.law().title()
+            ));
+        }
         if Law::of_number(friction.law().number()).is_none() {
             return at.refuse_part("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone");
         }

@@ -123,6 +123,12 @@ static void check_zones(int32_t base)
     CHECK_TEXT(signorini_last_error(), "slave face 0 of zone 'again' is slave face 0 of zone 'A on B', and both");
     zones[1].law = SIGNORINI_LAW_BY_PAIR;
     CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    zones[1].contact = zone[1];
+    for (int law = SIGNORINI_LAW_FRICTIONLESS; law <= SIGNORINI_LAW_TIED; law += SIGNORINI_LAW_TIED) {
+        zones[1].law = law;
+        CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+        CHECK_TEXT(signorini_last_error(), "has no parameters: give the law of these numbers");
+    }
     zones[1].law = SIGNORINI_LAW_COULOMB;
     zones[1].friction = NULL;
     CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
