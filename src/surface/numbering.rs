@@ -127,8 +127,8 @@ impl Numbering {
         if self.images.motions().len() > most {
             let message = format!(
                 "more than {most} images of the model meet: planes of symmetry meet at an angle of which half a turn is no \
-                 multiple, so that no whole body has them, or there are too many sectors; leave out a plane, or give the \
-                 number of sectors of the whole"
+                 multiple, so that no whole body has them, as happens if a direction has few digits, or there are too many \
+                 sectors; give directions with all digits, leave out a plane, or give the number of sectors of the whole"
             );
             return Err(Error::invalid(Argument::Settings, message));
         }

@@ -125,8 +125,12 @@ impl OnPlanes {
                 return Ok(());
             }
             let (name, below, above) = (plane.name(), index(*below), index(*above));
+            let beyond = |way: f64| nodes.iter().map(|node| way * height(node)).fold(0.0, f64::max);
+            let [least, near] = [beyond(1.0).min(beyond(-1.0)), near].map(|by| by / side.scale);
             return Err(format!(
-                ", {name}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave the plane out"
+                ", {name}, has slave nodes on both sides, {below} and {above}: model one side alone, or leave the plane out. \
+                 Those on one side are {least:.1e} away at most: if they should stand on it, give its direction and its place, \
+                 and coordinates, with more digits, as nodes do to {near:.1e}"
             ));
         }
         let on: Vec<usize> =

@@ -107,14 +107,22 @@ fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
             ));
         }
         if zones[..place].iter().any(|other| other.name == name) {
-            return Err(format!("two zones are named '{name}'"));
+            return Err(format!("two zones are named '{name}': give each a name of its own"));
         }
         let named = |what: &str| format!("zone '{name}' {what} zone '{}'", first.name);
         if contact.dim != first.contact.dim {
             return Err(named(&format!("is in {} dimensions, unlike", contact.dim)));
         }
         if contact.axisymmetric != first.contact.axisymmetric {
-            return Err(named("is of revolution and not, or not and is, unlike"));
+            let [own, other] = if contact.axisymmetric {
+                ["a body of revolution", "in the plane"]
+            } else {
+                ["in the plane", "a body of revolution"]
+            };
+            return Err(format!(
+                "zone '{name}' is {own}, and zone '{}' is {other}: give axisymmetric alike to the pairings of all zones",
+                first.name
+            ));
         }
     }
     shared_face(zones).map_or(Ok(()), Err)

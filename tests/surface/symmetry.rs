@@ -519,7 +519,9 @@ fn wrong_planes_are_refused() {
         (
             1,
             0.25,
-            "has slave nodes on both sides, 2 and 8: model one side alone, or leave the plane out",
+            "has slave nodes on both sides, 2 and 8: model one side alone, or leave the plane out. \
+             Those on one side are 2.5e-1 away at most: if they should stand on it, give its direction and its place, and \
+             coordinates, with more digits, as nodes do to 1.0e-6",
         ),
         (2, 0.0, "a plane of symmetry has slave faces in it, at node 0: leave these faces out"),
     ] {

@@ -93,13 +93,13 @@ fn zones_that_cannot_be_joined_are_named() {
     let zone = |name, contact, slave| ContactZone { name, contact, slave };
     let one = zone("one", &contact, slave);
     for (other, words) in [
-        (zone("one", &contact, no_faces), "two zones are named 'one'"),
+        (zone("one", &contact, no_faces), "two zones are named 'one': give each a name"),
         (zone("", &contact, no_faces), "zone 1 has no name"),
         (zone("a\nb", &contact, no_faces), "the name of zone 1 has a control character"),
         (zone("two", &in_space, no_faces), "zone 'two' is in 3 dimensions, unlike zone 'one'"),
         (
             zone("two", &of_rings, no_faces),
-            "zone 'two' is of revolution and not, or not and is, unlike zone 'one'",
+            "zone 'two' is a body of revolution, and zone 'one' is in the plane: give axisymmetric alike",
         ),
         (
             zone("two", &contact, slave),
@@ -110,6 +110,9 @@ fn zones_that_cannot_be_joined_are_named() {
         assert!(error.contains(words), "{error}");
     }
     assert!(join_zones(&[]).is_err());
+    let rings = zone("rings", &of_rings, no_faces);
+    let error = join_zones(&[rings, one]).expect_err("not both").to_string();
+    assert!(error.contains("zone 'one' is in the plane, and zone 'rings' is a body of revolution"));
     // The other side of the faces, as of a shell between two bodies: their normals are opposite.
     let mut other_side = contact.clone();
     other_side.pairs.iter_mut().for_each(|pair| pair.normal = pair.normal.map(|n| -n));
