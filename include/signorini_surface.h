@@ -566,7 +566,7 @@ struct signorini_penetration {
  *
  * @param contact      the pairs; of joined ones each zone is asked, points are those of all
  * @param u            displacements of all your degrees of freedom, as signorini_model_recover
- *                     writes them; at least up to the largest one of the nodes
+ *                     writes them; at least up to the largest one of the nodes of the faces
  * @param penetration  out: what is found; set penetration->struct_size before
  */
 int32_t signorini_surface_penetration(const signorini_surface_pairs *contact, const double *u,

@@ -225,7 +225,7 @@ pub struct SignoriniPenetration {
 ///
 /// @param contact      the pairs; of joined ones each zone is asked, points are those of all
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover
-///                     writes them; at least up to the largest one of the nodes
+///                     writes them; at least up to the largest one of the nodes of the faces
 /// @param penetration  out: what is found; set penetration->struct_size before
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_penetration(
@@ -236,7 +236,8 @@ pub unsafe extern "C" fn signorini_surface_penetration(
     c_entry!(|arrays| {
         let contact = arrays.at(1, "contact").handle(contact)?;
         let (dofs, dim) = (contact.dofs(), contact.found.dim);
-        let length = dofs.iter().max().map_or(0, |last| last + 1);
+        let of_node = |&node: &usize| &dofs[dim * node..dim * (node + 1)];
+        let length = kept.nodes().iter().flat_map(of_node).max().map_or(0, |last| last + 1);
         let u = arrays.at(2, "u").required(u, length)?;
         let place = arrays.at(3, "penetration").out_structure(penetration)?;
         let moved = |node: usize, axis: usize| u[dofs[dim * node + axis]];

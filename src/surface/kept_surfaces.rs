@@ -54,6 +54,11 @@ impl KeptSurfaces {
         KeptSurfaces { dim, slave: lists(slave), coordinates: kept, nodes, master, clearance }
     }
 
+    /// The nodes of the host that stand on a side, ascending: those whose displacements are asked.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
     /// Sides of these faces, before the motion and `moved`.
     pub(super) fn before_and_after<'s>(
         &'s self,

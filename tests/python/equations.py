@@ -6,12 +6,15 @@
 import os
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
 from common import ROOT  # noqa: F401
 
 import signorini
+
+from surfaces import arrays_of
 
 # Any definite matrix serves as a stiffness.
 rng = np.random.default_rng(1)
@@ -145,6 +148,33 @@ class Rows(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "at least 8; Model.extended adds"):
             contact.penetration(u)
         self.assertIsNone(contact.penetration(model.extended(u)))
+
+    def test_nodes_of_no_face_need_no_displacements(self):
+        """A line on springs of 1 above a lower one on springs of 2, pressed by 1, with a node of no face that K does not have, of
+        any number: (1 - p) / 1 = 0.1 + p / 2 at each node. The host may have dropped a face's node that it holds."""
+        places = np.array([[0, 0.1], [1, 0.1], [0, 0], [1, 0], [5, 5], [3, 0.0]])
+        near, far = np.arange(12).reshape(6, 2), np.arange(12).reshape(6, 2)
+        far[4], load = 10**15, np.tile([0, -1.0], 2)
+        load = np.concatenate([load, np.zeros(4)])
+        K, p = sparse(np.diag(np.repeat([1.0, 2.0], 4))), 0.9 / 1.5
+        for dofs, master in (None, [[3, 2]]), (near, [[3, 2]]), (far, [[3, 2]]), (near, [[5, 3], [3, 2]]):
+            contact = signorini.pair_surfaces(places, [[0, 1]], master, dofs=dofs)
+            for pairs in (contact, {"zone": contact}):
+                model = signorini.Model.from_surfaces(K, pairs)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    result = model.solve(load, mu=0.0)
+                np.testing.assert_allclose(result.F[:, 0], -p, atol=1e-9)
+                u = model.recover(result.d, load)
+                if len(master) > 1:
+                    self.assertRaisesRegex(ValueError, "u has the shape .8,.: .* at least 12", contact.penetration, u)
+                    continue
+                self.assertIsNone(contact.penetration(u))
+                with tempfile.TemporaryDirectory() as folder:
+                    path = os.path.join(folder, "lines.vtu")
+                    result.contact.write(path, {"line": [[0, 1], [3, 2]], "vertex": [[4]]}, result, u)
+                    moved = arrays_of(path)["displacement"]
+                np.testing.assert_allclose(moved[:, 1], [p - 1, p - 1, -p / 2, -p / 2, 0, 0], atol=1e-9)
 
     def test_a_large_number_costs_nothing(self):
         """A block of 2 nodes falls on a plane, and one of its directions has a second number, the largest that there is."""

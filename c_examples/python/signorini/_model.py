@@ -380,7 +380,10 @@ class Model(Remade):
         u = np.zeros(self.host_size)
         self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
         contact = self._zones or self.contact
-        u = self._equations.extended(u, contact._least) if self._equations else u
+        least = contact._least
+        u = self._equations.extended(u, least) if self._equations else u
+        # A node of a face without a pair may be held by the host, which has no rows for it.
+        u = np.concatenate([u, np.zeros(max(0, least - u.size))])
         found = contact._passed(u, case.gap - contact._paired_gaps)
         if found:
             tell(found.sentence)

@@ -14,7 +14,7 @@ from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
 from ._sector import Period, checked, ways_of
-from ._structures import (ContactFields, Faces, Pairs, PenetrationData, ResultantSums, RigidObstacle,
+from ._structures import (ContactFields, Faces, NodalField, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
 _PASS_BY = 2.0  # where gaps are larger than those of the coordinates, surfaces pass by so many times the difference
@@ -156,6 +156,7 @@ class SurfacePairs(Remade):
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
+_SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both sides, and dofs with dofs_per_node
     gaps are yours to change: solve, fields and write take them where neither they nor the case of a result are given any.
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
@@ -209,15 +210,12 @@ class SurfacePairs(Remade):
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
         if tangent is not None:
             settings.tangent[:] = fit("tangent", tangent, [(3,)], "a direction, shape (3,)")
-        # Entries of a displacement vector that has all nodes.
-        self._least = (dofs_per_node or self.dim) * (self.node_count - 1) + self.dim
         if dofs is not None:
             dofs = indices(integers("dofs", dofs))
             if dofs.shape != self._coordinates.shape:
                 raise ValueError(f"dofs has the shape {dofs.shape}: give the degrees of freedom of "
                                  f"each node, shape {self._coordinates.shape}")
             settings.node_dofs = at(dofs)
-            self._least = int(dofs.max(initial=-1)) + 1
         handle, data = address(), sized(SurfaceData)
         status, message = call.run(
             getattr(self._functions, make), self.dim, self.node_count, at(self._coordinates),
@@ -345,8 +343,8 @@ class SurfacePairs(Remade):
     def penetration(self, u):
         """What has passed through the other side without a pair: a Penetration, or None if nothing has.
 
-        u: displacements of all degrees of freedom, as Model.recover returns them. A point that has passed through the whole
-        of a rigid shape and is outside again is not found.
+        u: displacements of all degrees of freedom, as Model.recover returns them, at least of the nodes of faces. A point
+        that has passed through the whole of a rigid shape and is outside again is not found.
         """
         found = sized(PenetrationData)
         u = self._displacements(u)
@@ -377,7 +375,7 @@ class SurfacePairs(Remade):
 
     def _touches(self, other):
         """Tells if faces of both have a node in common."""
-        mine, others = ([node for side in one._made_of[2:4] if isinstance(side, _Faces) for node in side.nodes]
+        mine, others = ([node for side in one._made_of[_SIDES] if isinstance(side, _Faces) for node in side.nodes]
                         for one in (self, other))
         return not set(mine).isdisjoint(others)
 
@@ -403,17 +401,34 @@ class SurfacePairs(Remade):
         """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
 
         cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
-        returns them.  slip0, gap: as for fields. Of one of the zones that cut a curved surface, traction and slip at the cut
-        are turned to its own normals: result.contact.write of all zones has those of the pairs.
+        returns them, at least of the nodes of faces; other nodes beyond its end stay in their places.  slip0, gap: as
+        for fields. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
+        normals: result.contact.write of all zones has those of the pairs.
+    def _dofs_of(self, nodes):
+        """Degrees of freedom of nodes, (k, D)."""
+        dofs, each = self._made_of[_NUMBERS]
+        return np.asarray(dofs)[nodes] if dofs is not None else (each or self.dim) * nodes[:, None] + np.arange(self.dim)
+
+    @property
+    def _least(self):
+        """Entries of a displacement vector that has the nodes of faces, whose displacements are asked."""
+        nodes = np.concatenate([side.nodes for side in self._made_of[_SIDES] if isinstance(side, _Faces)])
+        return int(self._dofs_of(nodes).max(initial=-1)) + 1
+
         """
         self._write(path, cells, self, result, u, slip0, gap)
 
     def _write(self, path, cells, of, result, u, slip0, gap):
         """Writes the mesh of SurfacePairs and the fields."""
-        u = None if u is None else of._displacements(u)
+        u = None if u is None else doubles(of._of_nodes(self._displacements(u)))
         gap, slip0, d, F, state = self._results(result, slip0, gap)
+    def _of_nodes(self, u):
+        """Displacements of all nodes, (n, D), 0 of those beyond the end of u."""
+        return np.append(u, 0.0)[np.minimum(self._dofs_of(np.arange(self.node_count)), u.size)]
+
         zone = sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d), F=at(F), state=at(state))
-        Cells(of.coordinates, cells).write(path, u, [zone])
+        moved = [] if u is None else [sized(NodalField, components=self.dim, name=b"displacement", values=at(u))]
+        Cells(of.coordinates, cells).write(path, None, [zone], moved)
 
     def _results(self, result, slip0, gap):
         if not hasattr(result, "d"):

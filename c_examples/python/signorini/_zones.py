@@ -87,7 +87,7 @@ class Zones(Remade):
 
     # Joined pairs are pairs for the library.
     with_equations, _do = SurfacePairs.with_equations, SurfacePairs._do
-    _results, _write = SurfacePairs._results, SurfacePairs._write
+    _results, _write, _displacements = SurfacePairs._results, SurfacePairs._write, SurfacePairs._displacements
 
     def _join(self, zones):
         """The pairs of all zones as one object of the library."""
@@ -275,7 +275,7 @@ class Zones(Remade):
 
     @property
     def _least(self):
-        """Entries of a displacement vector that has all nodes."""
+        """Entries of a displacement vector that has the nodes of faces of all zones."""
         return max(contact._least for contact in self.contacts.values())
 
     def table(self, result):
