@@ -328,8 +328,26 @@ class Zones(unittest.TestCase):
             result.zone("bolt")
         with self.assertRaisesRegex(AttributeError, r"several zones have no areas: ask those of one, result.zone\(name\)"):
             print(result.contact.areas)
-        with self.assertRaisesRegex(ValueError, "a result that was unpickled or copied has none any more"):
+        with self.assertRaisesRegex(ValueError, "was unpickled or copied has none any more: Model.with_contact"):
             pickle.loads(pickle.dumps(result)).table()
+
+    def test_tables_of_what_has_no_names_and_of_what_was_unpickled(self):
+        """The middle line alone on the lowest one: it presses by 4 / 2 less the gap over the springs of 2 and 4."""
+        alone = signorini.Model.from_surfaces((np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13)), self.contacts["below"])
+        result, q = alone.solve(self.load, mu=0.3, penetration=False), (4 / 2 - 0.1) / (1 / 2 + 1 / 4)
+        for found in result, alone.with_contact(pickle.loads(pickle.dumps(result))):
+            row, = found.table()
+            self.assertEqual((row.zone, row.pairs, row.open, row.slip + row.stick), ("contact", 2, 0, 2))
+            np.testing.assert_allclose(row.force, [0, 2 * q, 0], atol=1e-9)
+            self.assertAlmostEqual(row.pressed_area, 1)
+        whole = self.model.solve(self.load, mu=0.3)
+        again = self.model.with_contact(pickle.loads(pickle.dumps(whole)))
+        for row, wanted in zip(again.table(), whole.table(), strict=True):
+            self.assertEqual(row[:-1], wanted[:-1])
+            np.testing.assert_array_equal(row.force, wanted.force)
+        np.testing.assert_array_equal(again.zone("below").F, whole.zone("below").F)
+        with self.assertRaisesRegex(ValueError, r"result.d has the shape \(2, 2\): give a result of this model"):
+            self.model.with_contact(result)
 
     def test_a_result_can_be_pickled(self):
         part = self.model.solve(self.load, mu=0.3).zone("below")

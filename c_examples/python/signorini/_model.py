@@ -364,6 +364,13 @@ class Model(Remade):
             results.append(self._of_case(result._replace(penetration=passed), case, gap))
         return results[0] if cases is None else results
 
+    def with_contact(self, result):
+        """A result of this model that was unpickled or copied, with the contact of the model again, for zone, table and plot."""
+        if np.shape(result.d) != (self.pairs, self.dim):
+            raise ValueError(f"result.d has the shape {np.shape(result.d)}: give a result of this model, {(self.pairs, self.dim)}")
+        second = result.second and self.with_contact(result.second)
+        return result._replace(contact=self._zones or self.contact, second=second)
+
     def _of_case(self, result, case, gap):
         """A result with its contact and with the slip0 and the gap, as a caller gave it, of its case."""
         if not self.contact:

@@ -49,6 +49,7 @@ class Result(_Fields):
     none. fields, resultant and write take them.
 
     A result can be pickled, without its contact: a load history goes on from a file by start=result.d and slip0.
+    Model.with_contact gives it the contact of a model again.
     """
 
     __slots__ = ()
@@ -68,13 +69,13 @@ class Result(_Fields):
     def table(self):
         """Pairs by state, pressed area and force of each zone: a list of (zone, pairs, open, slip, stick,
         pressed_area, force), named so. Pairs that zones share are in the rows of each, with their parts of the force; the table
-        of the C interface has them in the first zone alone."""
-        return self._zones().table(self)
+        of the C interface has them in the first zone alone. Pairs without the name of a zone are one, "contact"."""
+        return (self.contact or self._zones()).table(self)
 
     def _zones(self):
         if not hasattr(self.contact, "places"):
             raise ValueError("the model has no zones with names: give Model.from_surfaces a dict of them; a result that was "
-                             "unpickled or copied has none any more: keep zone(name) of each")
+                             "unpickled or copied has none any more: Model.with_contact gives it those of the model")
         return self.contact
 
     def plot(self, axes=None, *, at=None):

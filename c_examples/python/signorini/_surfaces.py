@@ -9,7 +9,7 @@ import numpy as np
 
 from ._arrays import at, components, copied, doubles, fit, indices, integers, number, per_pair, reals
 from ._call import Call
-from ._constants import Normals, Obstacle, Pairing, Rims, Status, chosen, member
+from ._constants import Normals, Obstacle, Pairing, Rims, State, Status, chosen, member
 from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
@@ -68,6 +68,13 @@ Resultant.__doc__ = """Sums over a contact zone, over whole rings if it is axisy
 
 force: of the contact on the slave's body, (3,).  moment: about the point, (3,).  friction_work:
 what friction takes in the step.  pressed_area: of the pairs that press.
+"""
+
+ZoneSums = namedtuple("ZoneSums", "zone pairs open slip stick pressed_area force")
+ZoneSums.__doc__ = """A row of Result.table().
+
+zone: its name.  pairs: how many; open, slip, stick: of them in each state.  pressed_area: of the pairs that
+press.  force: of the contact on the slave's body, (3,).
 """
 
 Penetration = namedtuple("Penetration", "points depth point face node master_face sentence")
@@ -149,6 +156,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
 
 # Of the making of SurfacePairs: what belongs to one process.
 _OF_THIS_PROCESS = ("_functions", "_handle", "_owner", "structure", "_made_of")
+_SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both sides, and dofs with dofs_per_node
 
 
 class SurfacePairs(Remade):
@@ -156,7 +164,6 @@ class SurfacePairs(Remade):
 
     dim, pairs: D and P.  gaps, areas: (P,).  normals, tangents: unit vectors, (P, D).  points:
     where the force of each pair acts, (P, D).  nodes: slave node of each pair, (P,).
-_SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both sides, and dofs with dofs_per_node
     gaps are yours to change: solve, fields and write take them where neither they nor the case of a result are given any.
     coordinates: those given.  slave_faces: the nodes of each slave face.
     unpaired: slave nodes without a pair.  folded: nodes with little cover, each with the nearest of those
@@ -315,6 +322,12 @@ _SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both si
             self._do("surface_resultant", at(slip0), at(d), at(forces), at(point), ctypes.byref(of))
         return Resultant(np.array(acting.force), np.array(acting.moment), sums.friction_work, sums.pressed_area)
 
+    def table(self, result, name="contact"):
+        """A ZoneSums of all pairs, in a list, as Result.table gives it."""
+        sums = self.resultant(result)
+        count = [int((result.state == state).sum()) for state in (State.OPEN, State.SLIP, State.STICK)]
+        return [ZoneSums(name, self.pairs, *count, sums.pressed_area, sums.force)]
+
     def _turned(self, vectors, frames):
         """Vectors in frames of their own, or None, in those that the library has of the pairs."""
         if frames is None:
@@ -390,20 +403,6 @@ _SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both si
         away = np.linalg.norm(self.points - self.coordinates[own].mean(axis=0), axis=1)
         return of & (away == away[of].min())
 
-    def _displacements(self, u):
-        u = np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
-        if u.size < self._least:
-            raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
-                             f"freedom, at least {self._least}; Model.extended adds those that equations give")
-        return u
-
-    def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
-        """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
-
-        cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
-        returns them, at least of the nodes of faces; other nodes beyond its end stay in their places.  slip0, gap: as
-        for fields. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
-        normals: result.contact.write of all zones has those of the pairs.
     def _dofs_of(self, nodes):
         """Degrees of freedom of nodes, (k, D)."""
         dofs, each = self._made_of[_NUMBERS]
@@ -415,6 +414,24 @@ _SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both si
         nodes = np.concatenate([side.nodes for side in self._made_of[_SIDES] if isinstance(side, _Faces)])
         return int(self._dofs_of(nodes).max(initial=-1)) + 1
 
+    def _displacements(self, u):
+        u = np.require(reals("u", u), np.float64, ["C", "ALIGNED"])
+        if u.size < self._least:
+            raise ValueError(f"u has the shape {u.shape}: give the displacements of all degrees of "
+                             f"freedom, at least {self._least}; Model.extended adds those that equations give")
+        return u
+
+    def _of_nodes(self, u):
+        """Displacements of all nodes, (n, D), 0 of those beyond the end of u."""
+        return np.append(u, 0.0)[np.minimum(self._dofs_of(np.arange(self.node_count)), u.size)]
+
+    def write(self, path, cells, result, u=None, *, slip0=None, gap=None):
+        """Writes the mesh, displacements and fields to a file .vtu, which ParaView opens.
+
+        cells: as for write_mesh.  u: displacements of all degrees of freedom, as Model.recover
+        returns them, at least of the nodes of faces; other nodes beyond its end stay in their places.  slip0, gap: as
+        for fields. Of one of the zones that cut a curved surface, traction and slip at the cut are turned to its own
+        normals: result.contact.write of all zones has those of the pairs.
         """
         self._write(path, cells, self, result, u, slip0, gap)
 
@@ -422,10 +439,6 @@ _SIDES, _NUMBERS = slice(2, 4), slice(6, 8)  # of what they are made of: both si
         """Writes the mesh of SurfacePairs and the fields."""
         u = None if u is None else doubles(of._of_nodes(self._displacements(u)))
         gap, slip0, d, F, state = self._results(result, slip0, gap)
-    def _of_nodes(self, u):
-        """Displacements of all nodes, (n, D), 0 of those beyond the end of u."""
-        return np.append(u, 0.0)[np.minimum(self._dofs_of(np.arange(self.node_count)), u.size)]
-
         zone = sized(Zone, contact=self._handle, gap=at(gap), slip0=at(slip0), d=at(d), F=at(F), state=at(state))
         moved = [] if u is None else [sized(NodalField, components=self.dim, name=b"displacement", values=at(u))]
         Cells(of.coordinates, cells).write(path, None, [zone], moved)

@@ -2,23 +2,14 @@
 
 import ctypes
 import re
-from collections import namedtuple
 
 import numpy as np
 
 from ._arrays import at, copied, fit, reals
-from ._constants import State
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._structures import ContactZone, SurfaceData, address, i64, real, sized
 from ._surfaces import SurfacePairs, frames_of
-
-ZoneSums = namedtuple("ZoneSums", "zone pairs open slip stick pressed_area force")
-ZoneSums.__doc__ = """A row of Result.table().
-
-zone: its name.  pairs: how many; open, slip, stick: of them in each state.  pressed_area: of the pairs that
-press.  force: of the contact on the slave's body, (3,).
-"""
 
 
 class Zone:
@@ -200,6 +191,10 @@ class Zones(Remade):
         the gap of the zone, so that each has the clearance. It keeps its normal; tangents are those of the zone's own pair.
         """
         self._check("zone", {**dict.fromkeys(self.contacts), name: None})
+        return self._of(result, name, self._all_gaps(result.gaps))
+
+    def _of(self, result, name, all_gaps):
+        """As of, with the gaps of all pairs."""
         place, contact = self.places[name], self.contacts[name]
         cut = ("d", "F", "state", "motion", "radius_d", "radius_F", "escape", "slip0")
         parts = {field: None if getattr(result, field) is None else getattr(result, field)[place] for field in cut}
@@ -216,9 +211,9 @@ class Zones(Remade):
             if parts["slip0"] is not None:
                 parts["slip0"][shared] = np.einsum("pij,pj->pi", turn, parts["slip0"][shared])
             with np.errstate(invalid="ignore"):
-                lifted = self._own_gaps(name, result.gaps)[shared] - self._all_gaps(result.gaps)[place[shared]]
+                lifted = self._own_gaps(name, result.gaps)[shared] - all_gaps[place[shared]]
             parts["d"][shared, 0] += np.where(np.isfinite(lifted), lifted, 0.0)  # infinite ones never touch
-        second = None if result.second is None else self.of(result.second, name)
+        second = result.second and self.of(result.second, name)
         gaps = None if result.gaps is None else self._own_gaps(name, result.gaps)
         return result._replace(contact=contact, second=second, frames=frames, gaps=gaps, **parts)
 
@@ -280,13 +275,8 @@ class Zones(Remade):
 
     def table(self, result):
         """A ZoneSums for each zone."""
-        sums = []
-        for name, contact in self.contacts.items():
-            part = self.of(result, name)
-            found = contact.resultant(part)
-            count = {state: int((part.state == state).sum()) for state in (State.OPEN, State.SLIP, State.STICK)}
-            sums.append(ZoneSums(name, contact.pairs, *count.values(), found.pressed_area, found.force))
-        return sums
+        alone, gaps = result._replace(second=None), self._all_gaps(result.gaps)
+        return [row for name, contact in self.contacts.items() for row in contact.table(self._of(alone, name, gaps), name)]
 
 
 def _deepest(found):
