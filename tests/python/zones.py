@@ -229,9 +229,14 @@ class Zones(unittest.TestCase):
         # Both upper lines go aside as one, by springs of 1 and 2 against 6 less the threshold; the lowest one by the rest.
         u = model.recover(result.d, self.load)
         np.testing.assert_allclose(u[[0, 4, 8]], [(6 - 0.125) / 3, (6 - 0.125) / 3, 0.125 / 4], atol=1e-9)
-        whole = model.solve(self.load, mu=0.0)
+        with self.assertWarnsRegex(UserWarning, "the law coulomb of the case is that of all pairs, and unties 'above': leave it out"):
+            whole = model.solve(self.load, mu=0.0)
         self.assertTrue((whole.state == State.SLIP).all(), "a law of the case stands for those of the zones")
-        np.testing.assert_array_equal(model.solve(self.load, law="frictionless").F[:, 1], 0)
+        with self.assertWarnsRegex(UserWarning, "the law frictionless of the case .* unties 'above'"):
+            np.testing.assert_array_equal(model.solve(self.load, law="frictionless").F[:, 1], 0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            model.solve(self.load, law="tied")
 
     def test_a_surface_that_is_cut(self):
         """A line of two faces, a zone each, on nodes with springs of 1 over a line on springs of 2: where p presses a node,

@@ -503,6 +503,8 @@ class Model(Remade):
             gap = self.contact.gaps
         return Case(
             f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
+            elif friction.law not in (Law.TIED, Law.BY_PAIR):
+                self._zones.warn_of_ties(friction.law)
             friction.numbers(self.pairs, self.dim, cases),
             components("slip0", slip0, self.pairs, self.dim, tangential=True, cases=cases,
                        scalar=True, optional=True),

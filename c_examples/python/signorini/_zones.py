@@ -6,10 +6,12 @@ import re
 import numpy as np
 
 from ._arrays import at, copied, fit, reals
+from ._constants import Law
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._structures import ContactZone, SurfaceData, address, i64, real, sized
 from ._surfaces import SurfacePairs, frames_of
+from ._text import tell
 
 
 class Zone:
@@ -55,6 +57,7 @@ class Zones(Remade):
                 _check(f"zones[{name!r}]", zone)
         zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
         self.contacts = {name: zone.contact for name, zone in zones.items()}
+        self._tied = [name for name, zone in zones.items() if zone.friction.law == Law.TIED]
         self._check_meshes()
         self._join(zones)
 
@@ -75,6 +78,12 @@ class Zones(Remade):
 
     def __getattr__(self, name):
         raise AttributeError(f"the pairs of several zones have no {name}: ask those of one, result.zone(name).contact")
+
+    def warn_of_ties(self, law):
+        """Warns of the zones that the law of a case unties."""
+        if self._tied:
+            tell(f"the law {law.name.lower()} of the case is that of all pairs, and unties {', '.join(map(repr, self._tied))}: "
+                 "leave it out, so that each Zone has its own law, or give SurfacePairs in the place of a tied Zone")
 
     # Joined pairs are pairs for the library.
     with_equations, _do = SurfacePairs.with_equations, SurfacePairs._do
