@@ -294,6 +294,61 @@ class Mistakes(unittest.TestCase):
         self.assertEqual(warnings_of([8]), [])  # the slave alone
         self.assertEqual(warnings_of(left, axisymmetric=True), [])  # the axis of revolution
 
+    def told_of(self, contact, equations=None):
+        """The warnings of a model on springs."""
+        size = 2 * len(SQUARE)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            Model.from_surfaces((np.ones(size), np.arange(size), np.arange(size + 1)), contact, equations=equations)
+        return [str(warning.message) for warning in caught]
+
+    def test_a_plane_of_symmetry_beside_its_nodes(self):
+        for place, is_told in (0.0, False), (-1e-5, True), (-0.03, True), (-0.2, False):
+            contact = signorini.pair_surfaces(SQUARE, [[4, 5]], [[3, 2]], symmetry=[(0, place)])
+            told = self.told_of({"cut": contact})
+            self.assertEqual(len(told), is_told)
+            if is_told:
+                self.assertRegex(told[0], f"zone 'cut': slave node 4 is {-place:.1e} away from plane of symmetry 0, .* more digits")
+                print(f"| a plane beside its nodes | Python | warning | {told[0]} |")
+
+    def test_a_sector_that_the_pairing_was_not_told_of(self):
+        """Equations of boundaries, of a period and of a sector; a zone in the middle has no node of them. Equations that are not
+        those of boundaries say nothing."""
+        repeats, dofs = signorini.Period((1, 0)), np.arange(16).reshape(8, 2)
+        period = signorini.sector_equations(SQUARE, repeats, bodies=np.arange(8) // 4)
+        faces = [[4, 5]], [[3, 2]]
+        says = "by equations slave node 5 is the image of slave node 4, .*: give sector to pair_surfaces"
+        self.assertRegex(self.told_of(signorini.pair_surfaces(SQUARE, *faces), period)[0], says)
+        self.assertRegex(self.told_of({"cut": signorini.pair_surfaces(SQUARE, *faces)}, period)[0], "^zone 'cut': " + says)
+        self.assertEqual(self.told_of(signorini.pair_surfaces(SQUARE, *faces, sector=repeats), period), [])
+        rigid = signorini.rigid_equations(dofs[[4, 5]], SQUARE[[4, 5]], [0, 1], [0, 1, 2])
+        skewed = signorini.turned_equations(dofs[[4]], [[0, 1]], [[0, -1], [1, 0]])
+        for others in rigid, skewed, [(11, [9], [1.0])], [(10, [8], [1.0]), (11, [9], [-1.0])], [(10, [8, 6], [0.5, 0.5])]:
+            self.assertEqual(self.told_of(signorini.pair_surfaces(SQUARE, *faces), others), [], others)
+        # A quarter of two rings in three zones, or four faces of which all nodes move with one.
+        turns = np.arange(5) * np.pi / 8
+        ring = np.array([radius * np.array([np.cos(turn), np.sin(turn)]) for radius in (1.1, 1.0) for turn in turns])
+        sector = signorini.Sector(4, (0, 0))
+        masters = [[5, 6], [6, 7], [7, 8], [8, 9]]
+        quarter = signorini.sector_equations(ring, sector)
+        plate = [(2 * node + axis, [axis], [1.0]) for node in range(1, 5) for axis in range(2)]
+        springs = np.ones(20), np.arange(20), np.arange(21)
+        ends, middle, thirds = [[1, 0], [4, 3]], [[2, 1], [3, 2]], {"a": [[1, 0]], "b": [[2, 1], [3, 2]], "c": [[4, 3]]}
+        for slaves, lacks, equations, named in (
+                ({"ends": ends, "middle": middle}, [], quarter, []), ({"ends": ends, "middle": middle}, ["middle"], quarter, []),
+                ({"ends": ends, "middle": middle}, ["ends"], quarter, ["ends"]),
+                (thirds, ["a", "b", "c"], quarter, ["a", "c"]), (thirds, ["a", "b", "c"], plate, [])):
+            zones = {name: signorini.pair_surfaces(ring, slave, masters, sector=None if name in lacks else sector)
+                     for name, slave in slaves.items()}
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                Model.from_surfaces(springs, zones, equations=equations)
+            told = [str(warning.message) for warning in caught]
+            self.assertEqual([one.split("'")[1] for one in told], named, told)
+            self.assertTrue(all("by equations slave node 4 is the image of slave node 0" in one for one in told))
+            print(*(f"| a sector that zone {name} was not told of | Python | warning | {one} |" for name, one in zip(named, told)),
+                  sep="\n")
+
     def test_warnings_name_the_line_that_calls(self):
         springs, left, cell = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6]), {"quad": [[0, 1, 3, 2]]}
         half = np.ones(8), np.arange(8), np.arange(9)

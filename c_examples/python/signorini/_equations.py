@@ -12,7 +12,7 @@ from ._structures import EquationList, sized
 
 _OF_THE_MODEL = "give coordinates, along the axes of the model"
 _TURNED = 7  # numbers of an *INSTANCE that turns its part: two points of an axis, and an angle
-_ORTHOGONAL = 1e-3  # axes are orthogonal unit vectors to this: decks have few digits
+ORTHOGONAL = 1e-3  # axes are orthogonal unit vectors to this: decks have few digits
 
 
 class Equations:
@@ -99,7 +99,7 @@ def turned_equations(dofs, own, turn):
         raise ValueError(f"own has the shape {own.shape}: give as many as dofs, shape {dofs.shape}")
     turn = np.broadcast_to(reals("turn", turn), (count, dim, dim))
     off = abs(turn.swapaxes(1, 2) @ turn - np.eye(dim)).max(axis=(1, 2), initial=0.0)
-    if not (off < _ORTHOGONAL).all():
+    if not (off < ORTHOGONAL).all():
         raise ValueError(f"turn of node {off.argmax()} is no rotation: give orthogonal unit vectors as its columns")
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
 

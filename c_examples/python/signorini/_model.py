@@ -21,7 +21,7 @@ from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
-from ._symmetry import warn_of_planes
+from ._symmetry import warn_of_nodes_beside, warn_of_planes, warn_of_repeats
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones
 
@@ -258,8 +258,10 @@ class Model(Remade):
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         if zones and zones.remark:
             tell(zones.remark)
-        for name, one in (zones.contacts if zones else {None: contact}).items():
+        contacts = zones.contacts if zones else {None: contact}
+        for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
+            warn_of_nodes_beside(one, name)
             zone = f"zone {name!r}: " if name else ""
             if not one.pairs or "all slave faces look away" in one.summary:
                 tell(zone + one.summary)
@@ -267,6 +269,8 @@ class Model(Remade):
                 tell(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "
                      "equations=sector_equations(coordinates, sector), or those of your own")
         rows = (zones or contact).with_equations(equations)
+        if equations is not None:
+            warn_of_repeats(contacts, rows.equations)
         model = cls("model_new_sparse", ctypes.byref(matrix.structure), len(fixed), at(fixed),
                     ctypes.byref(rows.structure), settings=settings)
         model.contact, model._zones, model._equations = contact, zones, getattr(rows, "equations", None)
@@ -499,12 +503,12 @@ class Model(Remade):
             friction.values = self._zones.joined(friction.name, friction.values, friction.law.numbers)
             if self._zones.has_laws and not friction.is_given:
                 friction = Friction(None, None, Law.BY_PAIR, self._zones.friction)
+            elif friction.law not in (Law.TIED, Law.BY_PAIR):
+                self._zones.warn_of_ties(friction.law)
         elif gap is None and self.contact is not None:
             gap = self.contact.gaps
         return Case(
             f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
-            elif friction.law not in (Law.TIED, Law.BY_PAIR):
-                self._zones.warn_of_ties(friction.law)
             friction.numbers(self.pairs, self.dim, cases),
             components("slip0", slip0, self.pairs, self.dim, tangential=True, cases=cases,
                        scalar=True, optional=True),

@@ -1,10 +1,15 @@
-"""Planes of symmetry that supports show, and that a pairing was not told."""
+"""Planes of symmetry, sectors and periods that supports and equations show, and that a pairing was not told."""
+
+from collections import Counter
 
 import numpy as np
 
+from ._equations import ORTHOGONAL
 from ._text import tell
 
 AXES = "xyz"
+_NEAR = 1e-6  # of the size of a side: its nodes are on a plane of symmetry, or at one place
+_BESIDE = 0.05  # of what a face reaches away from a plane: a node of it that is nearer to the plane seems to be meant on it
 
 
 def warn_of_planes(contact, fixed, name=None):
@@ -34,3 +39,72 @@ def warn_of_planes(contact, fixed, name=None):
             place = 0.0 if abs(places[0]) <= rounding else places[0]
             tell(f"{of}supports hold both sides across the plane {AXES[axis]} = {place:g}: if it is a plane of symmetry, give "
                  f"symmetry=[({axis}, {place:g})] to pair_surfaces")
+
+
+def warn_of_nodes_beside(contact, name=None):
+    """Warns of slave nodes beside a plane of symmetry that the pairing was told, and not on it, as a direction of few digits
+    leaves them."""
+    faces, of = contact.slave_faces, f"zone {name!r}: " if name else ""
+    if not contact._planes or not len(faces):
+        return
+    nodes, starts = np.concatenate(faces), np.cumsum([0, *map(len, faces[:-1])])
+    places = contact.coordinates[nodes]
+    near = _NEAR * np.ptp(places, axis=0).max()
+    for k, (across, place) in enumerate(zip(*contact._planes)):
+        heights = abs(places @ (across / np.linalg.norm(across)) - place)
+        reach = np.repeat(np.maximum.reduceat(heights, starts), list(map(len, faces)))
+        beside = (heights > near) & (heights <= _BESIDE * reach)
+        if beside.any():
+            least = np.where(beside, heights, np.inf).argmin()
+            tell(f"{of}slave node {nodes[least]} is {heights[least]:.1e} away from plane of symmetry {k}, and does not count as on it: "
+                 f"if it should, give the direction and the place of the plane, and coordinates, with more digits, as it must be "
+                 f"within {near:.1e}")
+
+
+def warn_of_repeats(contacts, equations):
+    """Warns of pairings without a Sector or Period, by name, a slave node of which is the image of another slave node by equations."""
+    if all(contact.is_sector for contact in contacts.values()):
+        return
+    one, slaves = next(iter(contacts.values())), {}
+    for name, contact in contacts.items():
+        slaves[name] = np.unique(np.concatenate([np.zeros(0, np.int64), *contact.slave_faces]))
+    nodes = np.unique(np.concatenate(list(slaves.values())))
+    images = _images(nodes, one._dofs_of(nodes), one.coordinates, equations) if len(nodes) else []
+    for name, contact in contacts.items():
+        pair = next((pair for pair in images if np.isin(pair, slaves[name]).any()), None)
+        if not contact.is_sector and pair:
+            of = f"zone {name!r}: " if name else ""
+            tell(f"{of}by equations slave node {pair[0]} is the image of slave node {pair[1]}, as in a Sector or a Period, and the pairs "
+                 "are not those of one: give sector to pair_surfaces, if the body repeats")
+
+
+def _images(nodes, dofs, coordinates, equations):
+    """Pairs of nodes that stand apart, the displacement of the first of which is that of the second, turned, all by one turn."""
+    dim, flat, first_of = dofs.shape[1], dofs.ravel(), {}
+    order = flat.argsort()
+
+    def place(numbers):
+        at = order[np.minimum(np.searchsorted(flat, numbers, sorter=order), flat.size - 1)]
+        return np.where(flat[at] == numbers, at, -1)
+    own, terms = place(equations.dependent), place(equations.dofs)
+    known = np.repeat(np.arange(len(own)), np.diff(equations.start))[(terms >= 0) & (equations.coefficients != 0)]
+    for k in np.unique(known[own[known] >= 0]):
+        part = slice(equations.start[k], equations.start[k + 1])
+        used = equations.coefficients[part] != 0
+        to, (node, axis) = terms[part][used], divmod(own[k], dim)
+        others = set((to // dim).tolist())
+        if (to >= 0).all() and len(others) == 1 and node not in others:
+            turn, axes = first_of.setdefault((node, *others), (np.zeros((dim, dim)), set()))
+            turn[axis, to % dim] = equations.coefficients[part][used]
+            axes.add(axis)
+    whole = {pair: turn for pair, (turn, axes) in first_of.items() if len(axes) == dim}
+    uses = Counter(first for _, first in whole)
+    near = _NEAR * np.ptp(coordinates, axis=0).max()
+    found = {}
+    for (node, first), turn in whole.items():
+        apart = np.linalg.norm(coordinates[nodes[node]] - coordinates[nodes[first]]) > near
+        is_turn = abs(turn.T @ turn - np.eye(dim)).max() <= ORTHOGONAL and np.linalg.det(turn) > 0
+        if apart and is_turn and uses[first] == 1:  # a rigid plate moves with one node
+            found[nodes[node], nodes[first]] = turn
+    turns = list(found.values())
+    return list(found) if all(abs(turn - turns[0]).max() <= ORTHOGONAL for turn in turns) else []
