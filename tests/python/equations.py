@@ -186,6 +186,17 @@ class Rows(unittest.TestCase):
                                             equations=[(7, [5], [2.0]), (5, [1], [1.0])])
         np.testing.assert_array_equal(few.extended([1.0, 2, 3, 4]), [1, 2, 3, 4, 0, 2, 0, 4])
 
+    def test_axes_of_few_digits_are_the_nearest_ones(self):
+        """The orthogonal factor of the singular value decomposition; zeros and ones stay."""
+        exact = np.linalg.qr(np.vander([1, 2, 3.0]))[0]
+        for digits in 16, 6, 4, 3:
+            left, _, right = np.linalg.svd(exact.round(digits))
+            found = np.array([row for _, _, row in signorini.turned_equations([[0, 1, 2]], [[3, 4, 5]], exact.round(digits))])
+            np.testing.assert_allclose(found, left @ right, atol=1e-14)
+            np.testing.assert_allclose(found.T @ found, np.eye(3), atol=1e-14)
+        level = signorini.turned_equations([[0, 1, 2]], [[3, 4, 5]], [[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+        np.testing.assert_array_equal([row for _, _, row in level], [[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+
     def test_directions_of_any_length_and_turns_that_are_none(self):
         np.testing.assert_allclose(signorini.section_equations([[0, 1, 2]], [[3, 4, 5]], 6, [0, 0, 2])[2][2], [1, -1])
         with self.assertRaisesRegex(ValueError, "axis is .*: give the direction across the section"):
