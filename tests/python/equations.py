@@ -204,6 +204,23 @@ class Rows(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "turn of node 1 is no rotation"):
             signorini.turned_equations([[0, 1], [2, 3]], [[4, 5], [6, 7]], [np.eye(2), np.ones((2, 2))])
 
+    def test_sides_of_a_section_in_any_order(self):
+        """By their places nodes have the equations that they have in one order."""
+        places = np.array([[x, y, 2.0] for x in range(3) for y in (0, 1, 3)])
+        dofs, order = np.arange(27).reshape(9, 3), np.random.default_rng(2).permutation(9)
+        opposite = 30 + dofs
+        wanted = signorini.section_equations(dofs, opposite, 60, [0, 0, 1])
+        found = signorini.section_equations(dofs, opposite[order], 60, [0, 0, 1], (places, places[order] + 1e-7))
+        self.assertEqual(found, wanted)
+        for others, says in ((places + [0, 0, 0.01], "no node of opposite is at the place of node 0 .* 1.0e-02 away"),
+                             (places[[0, 0, *range(2, 9)]], "no node of opposite is at the place of node 1 ")):
+            with self.assertRaisesRegex(ValueError, says):
+                signorini.section_equations(dofs, opposite, 60, [0, 0, 1], (places, others))
+        twice = places[[0, 0, *range(2, 9)]]
+        for given, says in ((twice, places), "two nodes of dofs are at the place of one"), (places, r"coordinates\[0\] has the shape \(3,\)"):
+            with self.assertRaisesRegex(ValueError, says):
+                signorini.section_equations(dofs, opposite, 60, [0, 0, 1], given)
+
     def test_mistakes(self):
         def refused(kind, part, **changed):
             given = {"slaves": [[2, 3]], "normals": [0, -1]}

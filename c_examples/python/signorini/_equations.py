@@ -12,6 +12,7 @@ from ._structures import EquationList, sized
 
 _OF_THE_MODEL = "give coordinates, along the axes of the model"
 _TURNED = 7  # numbers of an *INSTANCE that turns its part: two points of an axis, and an angle
+_NEAR = 1e-6  # of the size of a section: nodes are at one place
 ORTHOGONAL = 1e-3  # axes are orthogonal unit vectors to this: decks have few digits
 
 
@@ -109,24 +110,47 @@ def turned_equations(dofs, own, turn):
     return [(int(dofs[i, axis]), own[i], turn[i, axis]) for i in range(count) for axis in range(dim)]
 
 
-def section_equations(dofs, opposite, shortening, axis):
+def section_equations(dofs, opposite, shortening, axis, coordinates=None):
     """Equations of a section through a body, as of a bolt, with its shortening as one more unknown.
 
     The body is meshed in two, with two nodes at each place of the section: u[dofs] = u[opposite] - axis u[shortening].
     dofs, opposite: of the nodes on its two sides, (n, D).  shortening: the dof number of the unknown, a further row of
     K without entries. Its load is the force of the section, positive if it pulls; fixed, its value is the shortening.
     axis: the direction from the side of opposite to that of dofs, of any length, (D,).
+    coordinates: places of the nodes of both sides, of dofs and of opposite, two of (n, D): nodes of opposite may stand in any
+    order then, and each side must have one at each place of the other; None: nodes of both stand in one order.
     """
     dofs, opposite = nodal_dofs("dofs", dofs), nodal_dofs("opposite", opposite)
     count, dim = dofs.shape
     if opposite.shape != dofs.shape:
         raise ValueError(f"opposite has the shape {opposite.shape}: give as many as dofs, shape {dofs.shape}")
+    if coordinates is not None:
+        opposite = opposite[_across(coordinates, dofs.shape)]
     axis = fit("axis", axis, [(dim,)], f"a direction, shape {(dim,)}")
     if not 0 < np.linalg.norm(axis) < np.inf:
         raise ValueError(f"axis is {axis}: give the direction across the section")
     axis = axis / np.linalg.norm(axis)
     return [(int(dofs[i, c]), [int(opposite[i, c]), int(shortening)], [1.0, -axis[c]])
             for i in range(count) for c in range(dim)]
+
+
+def _across(coordinates, shape):
+    """For each node of a section's side that on the other side, at the same place."""
+    asked = f"the places of the nodes of dofs and of opposite, two arrays of shape {shape}"
+    try:
+        own, others = (fit(f"coordinates[{side}]", places, [shape], asked) for side, places in enumerate(coordinates))
+    except TypeError:
+        raise TypeError(f"coordinates is a {type(coordinates).__name__}: give {asked}") from None
+    near, found = _NEAR * np.ptp(own, axis=0).max(initial=0.0), []
+    for node, place in enumerate(own):
+        away = np.linalg.norm(others - place, axis=1)
+        found.append(int(away.argmin()))
+        if not away[found[-1]] <= near:
+            raise ValueError(f"no node of opposite is at the place of node {node} of dofs, {place}, the nearest, {found[-1]}, is "
+                             f"{away.min():.1e} away: give the nodes of both sides of one section, which must match")
+    if len(set(found)) < len(found):
+        raise ValueError("two nodes of dofs are at the place of one of opposite: give each node of the section once")
+    return found
 
 
 def rigid_equations(dofs, coordinates, reference, motion):
