@@ -59,6 +59,20 @@ class Skins(unittest.TestCase):
         self.assertAlmostEqual(flux, at.shape[1] * volume, places=13)
         return faces
 
+    def test_faces_beyond_the_pairs_whose_nodes_have_no_rows(self):
+        """Two squares on springs; the host has dropped the upper nodes, which it holds, and all faces of the skin are asked."""
+        cells = {"quad": [[0, 1, 3, 2]]}
+        lower = np.array([[0, 0], [1, 0], [0, 1], [1, 1.0]])
+        contact = signorini.pair_meshes((lower + [0, 1], cells), (lower, cells),
+                                        dofs=np.array([0, 1, 2, 3, 12, 13, 14, 15, 4, 5, 6, 7, 8, 9, 10, 11]).reshape(8, 2))
+        model = signorini.Model.from_surfaces((np.ones(12), np.arange(12), np.arange(13)), contact)
+        load = np.tile([0, -1.0], 6)
+        result = model.solve(load, mu=0.0)
+        self.assertEqual(result.status, signorini.Status.SOLVED)
+        np.testing.assert_allclose(result.F[:, 0], 0, atol=1e-12)
+        with self.assertRaisesRegex(ValueError, "at least 16"):
+            contact.penetration(model.recover(result.d, load))
+
     def test_one_cell_of_each_kind_in_both_orientations(self):
         mirrored = np.array([-1.0, 1, 1])
         for kind, (corners, volume) in CELLS.items():

@@ -413,7 +413,8 @@ class SurfacePairs(Remade):
     @property
     def _least(self):
         """Entries of a displacement vector that has the nodes of faces, whose displacements are asked."""
-        nodes = np.concatenate([side.nodes for side in self._made_of[_SIDES] if isinstance(side, _Faces)])
+        asked = self.penetration.__self__  # pair_meshes asks all faces that were given
+        nodes = np.concatenate([side.nodes for side in asked._made_of[_SIDES] if isinstance(side, _Faces)])
         return int(self._dofs_of(nodes).max(initial=-1)) + 1
 
     def _displacements(self, u):
