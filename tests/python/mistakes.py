@@ -302,6 +302,34 @@ class Mistakes(unittest.TestCase):
             Model.from_surfaces((np.ones(size), np.arange(size), np.arange(size + 1)), contact, equations=equations)
         return [str(warning.message) for warning in caught]
 
+    def test_rings_and_plane_bodies(self):
+        """Bars in all sides and diagonals of two squares, which resist no motion as a whole; in rings each node has a hoop, which
+        resists along x."""
+        at, K = SQUARE + [1, 0], np.zeros((16, 16))
+        for first in (0, 4):
+            for a in range(first, first + 4):
+                for b in range(first, a):
+                    along = (at[a] - at[b]) / np.linalg.norm(at[a] - at[b])
+                    ends, bar = np.concatenate([along, -along]), [2 * a, 2 * a + 1, 2 * b, 2 * b + 1]
+                    K[np.ix_(bar, bar)] += np.outer(ends, ends)
+        hoops, held = np.diag(np.tile([1.0, 0.0], 8)) * 1e-6, np.diag(np.arange(16) == 0) * 1.0
+        says = {False: "K resists a motion of all nodes along x .*: give axisymmetric=True",
+                True: "K does not resist a motion of all nodes across the axis .*: give K and loads of whole rings"}
+        for stiff, of_rings, is_told in (
+                (K, False, False), (K, True, True), (K + hoops, True, False), (K + hoops, False, True), (K + held, False, False),
+                (K + hoops + np.diag(np.ones(16)), False, False)):
+            for triangle in "full", "lower":
+                part = np.tril(stiff) if triangle == "lower" else stiff
+                columns, rows = np.nonzero(part.T)
+                contact = signorini.pair_surfaces(at, [[4, 5]], [[3, 2]], axisymmetric=of_rings)
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    Model.from_surfaces((part[rows, columns], rows, np.searchsorted(columns, np.arange(17))), contact,
+                                        fixed=[0, 1, 3, 8, 9, 11], triangle=triangle)
+                self.assertEqual(len(caught), is_told)
+                if is_told:
+                    self.assertRegex(str(caught[0].message), says[of_rings])
+
     def test_a_plane_of_symmetry_beside_its_nodes(self):
         for place, is_told in (0.0, False), (-1e-5, True), (-0.03, True), (-0.2, False):
             contact = signorini.pair_surfaces(SQUARE, [[4, 5]], [[3, 2]], symmetry=[(0, place)])
@@ -346,8 +374,8 @@ class Mistakes(unittest.TestCase):
             told = [str(warning.message) for warning in caught]
             self.assertEqual([one.split("'")[1] for one in told], named, told)
             self.assertTrue(all("by equations slave node 4 is the image of slave node 0" in one for one in told))
-            print(*(f"| a sector that zone {name} was not told of | Python | warning | {one} |" for name, one in zip(named, told)),
-                  sep="\n")
+            for one in told:
+                print(f"| a sector that a zone was not told of | Python | warning | {one} |")
 
     def test_warnings_name_the_line_that_calls(self):
         springs, left, cell = (np.ones(16), np.arange(16), np.arange(17)), 2 * np.array([0, 2, 4, 6]), {"quad": [[0, 1, 3, 2]]}

@@ -10,6 +10,7 @@ from ._equations import Equations
 from ._structures import Pairs, Sparse, sized
 
 _ROUNDING = 1e-6  # of coordinates with seven digits
+_SUMMED = 1e-12  # of what is added up: rounding of a sum
 
 
 class Matrix:
@@ -41,6 +42,19 @@ class Matrix:
 
     def __len__(self):
         return len(self.starts) - 1
+
+    def resisted(self, u):
+        """For each row whether u meets a force in it that is not rounding, and whether u meets an entry at all."""
+        columns = np.repeat(np.arange(len(self)), np.diff(self.starts))
+        parts = [(self.values, self.rows, columns)]
+        if self.structure.triangle != Triangle.FULL:
+            off = self.rows != columns
+            parts.append((self.values[off], columns[off], self.rows[off]))
+        force, terms = np.zeros((2, len(self)))
+        for values, rows, of in parts:
+            force += np.bincount(rows, values * u[of], len(self))
+            terms += np.bincount(rows, abs(values * u[of]), len(self))
+        return abs(force) > _SUMMED * terms, terms > 0
 
     def given(self):
         """(data, indices, indptr) of its own."""

@@ -208,7 +208,7 @@ class SurfacePairs(Remade):
         self._planes = None if is_shape or not len(across) else (across, places)
         settings.symmetry_planes = len(across)
         settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
-        self.is_sector = sector is not None
+        self.is_sector, self.is_of_rings = sector is not None, bool(axisymmetric)
         if isinstance(sector, Period):
             for place, way in zip((settings.period, settings.second_period), ways_of(sector, self.dim)):
                 place[:self.dim] = way

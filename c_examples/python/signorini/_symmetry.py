@@ -108,3 +108,25 @@ def _images(nodes, dofs, coordinates, equations):
             found[nodes[node], nodes[first]] = turn
     turns = list(found.values())
     return list(found) if all(abs(turn - turns[0]).max() <= ORTHOGONAL for turn in turns) else []
+
+
+def warn_of_rings(contact, matrix, has_equations, name=None):
+    """Warns of a plane K with pairs of bodies of revolution, and of a K of whole rings with plane pairs: rings resist to be
+    widened, and a plane body without supports does not."""
+    if contact.dim > len("xy") or not contact.pairs:
+        return
+    dofs, radii = contact._dofs_of(np.arange(contact.node_count)), contact.coordinates[:, 0]
+    has_row = (dofs < len(matrix)).all(axis=1)
+    unit = np.zeros((contact.dim, len(matrix)))
+    for axis, u in enumerate(unit):
+        u[dofs[has_row, axis]] = 1.0
+    (wider, has_terms), (higher, _) = (matrix.resisted(u) for u in unit)
+    wider, is_stiff = wider[dofs[has_row, 0]], has_terms[dofs[has_row, 0]] & (radii[has_row] > 0)
+    of, resists = f"zone {name!r}: " if name else "", wider[is_stiff]
+    if contact.is_of_rings and len(resists) and not wider.any():
+        tell(f"{of}K does not resist a motion of all nodes across the axis x = 0, as that of a plane body, and the pairs are those of "
+             "bodies of revolution: give K and loads of whole rings, or leave axisymmetric out")
+    is_plane = has_equations or contact.is_of_rings or radii.min(initial=0.0) < 0
+    if not is_plane and len(resists) and resists.all() and not higher.any():
+        tell(f"{of}K resists a motion of all nodes along x in each of them, and none along y, as that of bodies of revolution about "
+             "x = 0, and the pairs are plane: give axisymmetric=True to pair_surfaces")
