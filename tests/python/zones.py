@@ -265,7 +265,8 @@ class Zones(unittest.TestCase):
         np.testing.assert_allclose(forces, 1.5 * p, atol=1e-9)
         self.assertIn("1 pairs of later zones are in those of the same nodes", result.contact.summary)
         # Its slip is that of the first zone, at which a large threshold holds it.
-        stays = model.solve(load, g=100.0, slip0={"left": [0.5, 0.25], "right": 0.125})
+        with self.assertWarnsRegex(UserWarning, "the law tresca of the case .* unties 'right'"):
+            stays = model.solve(load, g=100.0, slip0={"left": [0.5, 0.25], "right": 0.125})
         np.testing.assert_allclose(stays.d[:, 1], [0.5, 0.25, 0.125], atol=1e-9)
         # The middle node has the mean of the gaps of both.
         gaps = {name: contact.gaps for name, contact in contacts.items()}
@@ -317,6 +318,13 @@ class Zones(unittest.TestCase):
                 wrong()
         with self.assertRaisesRegex(signorini.SignoriniError, "slave face 0 of zone 'two' is slave face 0 of zone 'one'"):
             signorini.Model.from_surfaces(np.eye(2), dict.fromkeys(("one", "two"), self.contacts["above"]))
+        below = self.contacts["below"]
+        listed = signorini.Model.from_surfaces((np.ones(12), np.arange(12), np.arange(13)), list(self.contacts.items()))
+        self.assertEqual(listed.contact, self.contacts)
+        with self.assertRaisesRegex(ValueError, "two zones are named 'line': give each a name of its own"):
+            signorini.Model.from_surfaces(np.eye(2), [("line", self.contacts["above"]), ("line", below)])
+        with self.assertRaisesRegex(TypeError, r"a list of what has no names: give \(name, SurfacePairs\)"):
+            signorini.Model.from_surfaces(np.eye(2), [below])
         with self.assertRaisesRegex(TypeError, "zones names a zone 1: give a text"):
             signorini.Model.from_surfaces(np.eye(2), {1: self.contacts["above"]})
         with self.assertRaisesRegex(ValueError, r"gap\['above'\] has the shape \(3, 2\): .* of its 2 pairs; for cases"):

@@ -23,7 +23,7 @@ from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import warn_of_nodes_beside, warn_of_planes, warn_of_repeats, warn_of_rings
 from ._text import path_bytes, remark_bytes, tell
-from ._zones import Zones
+from ._zones import Zones, by_name
 
 _UNTOUCHED = np.iinfo(np.int32).min
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
@@ -245,16 +245,18 @@ class Model(Remade):
 
         K, fixed, equations, triangle, order, settings: as for sparse.  contact: SurfacePairs; of an axisymmetric one K and
         the loads are those of whole rings. The gap of a load case is contact.gaps, if it is not given.
-        Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}. A node may be slave
-        in one zone and master in another; zones that cut a smooth surface have one pair for a node of the cut, with the
-        numbers of the first of them and the mean of the gaps, by area. A Zone in the place of SurfacePairs has a law of its own, which a case
-        without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict too, with
-        the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
+        Several zones: contact is a dict of SurfacePairs by name, {"bolt": ..., "flange": ...}, or a list of (name, SurfacePairs),
+        of which a name that stands twice is refused: a dict has the last of them alone. A node may be slave in one zone and
+        master in another; zones that cut a smooth surface have one pair for a node of the cut, with the numbers of the first
+        of them and the mean of the gaps, by area. A Zone in the place of SurfacePairs has a law of its own, which a case
+        without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict
+        too, with the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
+        contact = by_name(contact) if isinstance(contact, (list, tuple)) else contact
         zones = Zones(contact) if isinstance(contact, dict) else None
         if zones is None and not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "
-                            f"pair_obstacle returns, or a dict of them by the names of zones")
+                            f"pair_obstacle returns, or a dict or a list of them with the names of zones")
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         if zones and zones.remark:
             tell(zones.remark)

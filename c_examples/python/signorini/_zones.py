@@ -2,6 +2,7 @@
 
 import ctypes
 import re
+from collections import Counter
 
 import numpy as np
 
@@ -39,6 +40,18 @@ class Zone:
 def _check(name, contact):
     if not isinstance(contact, SurfacePairs):
         raise TypeError(f"{name} is a {type(contact).__name__}: give what pair_surfaces or pair_obstacle returns")
+
+
+def by_name(zones):
+    """A list of (name, contact) as a dict."""
+    try:
+        count = Counter(name for name, _ in zones)
+    except (TypeError, ValueError):
+        raise TypeError("contact is a list of what has no names: give (name, SurfacePairs) for each zone") from None
+    for name in count:
+        if count[name] > 1:
+            raise ValueError(f"two zones are named {name!r}: give each a name of its own")
+    return dict(zones)
 
 
 class Zones(Remade):
