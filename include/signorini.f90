@@ -803,6 +803,7 @@ module signorini
     type :: contact_surfaces
         type(c_ptr) :: handle = c_null_ptr
         integer :: dim = 0, pairs = 0, nodes = 0, dofs = 0
+        integer, private :: dofs_of_faces = 0
         type(signorini_surface_data) :: data
         integer, allocatable :: node(:)
         real(c_double), allocatable :: gap(:), area(:), normal(:, :), tangent(:, :), point(:, :)
@@ -1817,7 +1818,7 @@ contains
         call finish(signorini_surface_pair(number(size(coordinates, 1)), &
             int(size(coordinates, 2), c_int64_t), address2(coordinates), c_loc(told%slave%faces), &
             c_loc(told%other%faces), c_loc(told%settings), self%handle), info, message, [1, 1, 1, 2, 3, 6])
-        if (info == 0) call keep_pairs(self, shape(coordinates), told)
+        if (info == 0) call keep_pairs(self, shape(coordinates), told, told%other%nodes)
     end subroutine
 
     ! Pairs a surface with a rigid obstacle; the rest as for pair. search_distance absent: no limit.
@@ -2041,7 +2042,7 @@ contains
         character(len=*), intent(out), optional :: message
         type(refusal) :: wrong
         call check_surfaces(wrong, self, CONTACT_WRONG_MODEL)
-        if (size(u) < self%dofs) call refuse(wrong, 1, 'u has ' // entries(size(u)) // &
+        if (size(u) < self%dofs_of_faces) call refuse(wrong, 1, 'u has ' // entries(size(u)) // &
             ', it must have those of all degrees of freedom')
         if (refused(wrong, info, message)) return
         call finish(signorini_surface_penetration(self%handle, address(u), c_loc(found)), info, message, &
@@ -2135,14 +2136,27 @@ contains
     end subroutine
 
     ! Copies what the library tells of new pairs.
-    subroutine keep_pairs(self, nodes, told)
+    subroutine keep_pairs(self, nodes, told, masters)
         class(contact_surfaces), intent(inout) :: self
         integer, intent(in) :: nodes(2)
         type(preparation), intent(in) :: told
-        integer :: dofs
+        integer(c_int64_t), intent(in), optional :: masters(:)
+        integer(c_int64_t), allocatable :: faces(:)
+        integer :: dofs, each, i
         dofs = max(nodes(1), int(told%settings%dofs_per_node)) * (nodes(2) - 1) + nodes(1)
         if (allocated(told%dofs)) dofs = int(maxval(told%dofs))
         call keep_arrays(self, nodes, dofs)
+        ! The largest number of a node of the faces; the lists end with zeros.
+        faces = told%slave%nodes
+        if (present(masters)) faces = [faces, masters]
+        faces = pack(faces, faces > 0)
+        each = max(nodes(1), int(told%settings%dofs_per_node))
+        self%dofs_of_faces = 0
+        do i = 1, size(faces)
+            dofs = each * (int(faces(i)) - 1) + nodes(1)
+            if (allocated(told%dofs)) dofs = int(maxval(told%dofs(nodes(1) * (faces(i) - 1) + 1:nodes(1) * faces(i))))
+            self%dofs_of_faces = max(self%dofs_of_faces, dofs)
+        end do
     end subroutine
 
     subroutine keep_arrays(self, nodes, dofs)

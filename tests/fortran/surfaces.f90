@@ -85,6 +85,16 @@ program surfaces_test
         all(abs(clearance(:2)) < 1d-9) .and. all(node_state == SIGNORINI_STATE_SLIP))
     call surfaces%penetration(u, passed, info, message=message)
     call expect('nothing has passed', info == 0 .and. message == '' .and. passed%points == 0)
+    ! A node of no face, behind the others or with numbers far beyond, needs no displacements; a node of a face does.
+    call joined%pair(reshape([places, 9._dp, 9._dp], [2, 6]), slave, master, info)
+    call joined%penetration(u, passed, info, message=message)
+    call expect('a node behind the others', info == 0 .and. message == '' .and. passed%points == 0)
+    call joined%pair(reshape([places, 9._dp, 9._dp], [2, 6]), slave, master, info, &
+        dofs=reshape([(i, i=1, 10), 1000001, 1000002], [2, 6]))
+    call joined%penetration(u, passed, info, message=message)
+    call expect('a node of any number', info == 0 .and. message == '' .and. passed%points == 0)
+    call joined%penetration(u(:9), passed, info, message=message)
+    call expect('a node of a face', info == -1 .and. index(message, 'u has 9 entries') == 1)
     moved = places
     call surfaces%adjust(1d-9, moved, info, message=message)
     call expect('all are further apart', info == 0 .and. message == '' .and. all(abs(moved - places) <= 0))
