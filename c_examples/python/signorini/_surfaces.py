@@ -106,8 +106,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     dofs: degrees of freedom of each node, (n, D); None: dofs_per_node * node + axis, dofs_per_node
     0: D.
     symmetry: planes of symmetry of a half or quarter model, pairs of the axis across each and where
-    it stands along it: [(0, 0.0), (1, 0.0)], or of a direction (D,) for a skewed one: [((-0.5, 0.87, 0), 0.0)].
-    Pairs on one neither move nor carry a force across it.
+    it stands along it: [(0, 0.0), (1, 0.0)], or of a direction (D,), with all digits, for a skewed one at an angle a:
+    [((-sin(a), cos(a), 0), 0.0)]. Pairs on one neither move nor carry a force across it.
     sector: the Sector that the mesh is of a body that repeats about an axis, or the Period of one that repeats along a
     line or two; pairs are those of the whole.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
