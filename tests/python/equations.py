@@ -52,6 +52,20 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(slave.stiffness, by_dof.stiffness, rtol=1e-12)
         self.assertLess(abs(signorini.rigid_equations([[9, 8]], [[2, 3]], [1, 1], [0, 1, 2])[0][2][2] + 2), 1e-15)
 
+    def test_pairs_that_depend_on_others_are_counted(self):
+        """Rows of one node of a rigid body are independent; those of more depend on each other, as the distance of two is given."""
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
+        labels = 10 + np.arange(12).reshape(4, 3)
+        equations = signorini.rigid_equations(labels, corners, [0, 0, 0], range(6))
+        for count in 1, 2, 4:
+            model = signorini.Model.sparse(sparse(np.eye(6)), labels[:count], [0, 0, -1], equations=equations)
+            rank = np.linalg.matrix_rank([row for _, _, row in equations[:3 * count]])
+            # A pair is counted if any of its three rows follows from others.
+            self.assertEqual(rank == 3 * count, model.dependent == 0)
+            self.assertLess(model.dependent, count)
+        self.assertEqual(signorini.Model.sparse(sparse(np.eye(3)), [[0, 1], [0, 1]], [0, -1]).dependent, 1)
+        self.assertEqual(signorini.Model.condensed(np.eye(4)).dependent, 0)
+
     def test_turned_axes_change_nothing(self):
         K, turn = definite(6), np.array([[0.8, -0.6], [0.6, 0.8]])
         pair = {"slaves": [[2, 3]], "normals": [0, -1], "masters": [[[4, 5]]]}

@@ -70,6 +70,8 @@ class Model(Remade):
     Model.from_meshes or Model.operator.
     dim, pairs: D and P.  host_size: H, the entries of a load or displacement vector of the host.
     kind: a ModelKind.  memory: most bytes that a load case may take beside the model.
+    dependent: number of pairs whose rows follow from those of other pairs or from supports. Where most do, as where a
+    rigid body is the finer side, a solve takes long: let the other side be the slave.
     contact: the SurfacePairs of which it was made, by name if these were several, or None.
     A model can be pickled, unless it is one of functions of the host: another process makes it again of the same
     matrix, pairs and settings, and its results have the same bits. It keeps copies of these for that, but of a condensed K.
@@ -91,7 +93,7 @@ class Model(Remade):
         self._owner = Owner(self._functions.model_free, self._handle)
         self._do("model_view", ctypes.byref(self._data))
         self.dim, self.pairs = self._data.dim, self._data.pairs
-        self.host_size, self._n_fixed = self._data.host_size, self._data.fixed
+        self.host_size, self._n_fixed, self.dependent = self._data.host_size, self._data.fixed, self._data.dependent
         self.kind, self.memory = member(ModelKind, self._data.kind), self._data.memory
         # The host's vectors are those of the pairs, but for two bodies and of a whole matrix.
         is_pairwise = make not in ("model_new_two_body", "model_new_sparse")
@@ -306,7 +308,7 @@ class Model(Remade):
         size = self.dim * self.pairs
         K = copied(self._data.K, (size, size))
         if K is None and size:
-            why = _NO_STIFFNESS[self.kind].format(dependent=self._data.dependent)
+            why = _NO_STIFFNESS[self.kind].format(dependent=self.dependent)
             raise SignoriniError(f"there is no stiffness: {why}", -1)
         return np.zeros((0, 0)) if K is None else K.T
 
@@ -413,7 +415,7 @@ class Model(Remade):
         """
         case = self._case(f, gap, Friction(mu, g, law, friction), slip0, prescribed)
         F = components("F", F, self.pairs, self.dim, optional=True)
-        if F is None and (self.kind == ModelKind.FLEXIBILITY or self._data.dependent):
+        if F is None and (self.kind == ModelKind.FLEXIBILITY or self.dependent):
             raise TypeError("F is None: give the forces too, d does not determine them")
         found = self.certify_case(case, components("d", d, self.pairs, self.dim), tolerance, F)
         return self._of_case(found, case, gap)
