@@ -90,6 +90,7 @@ fn pair_sides(
         on_master.tell(&mut found.held);
     }
     found.report.idle_planes = on.idle;
+    found.report.beside_planes = on.beside;
     if let Some(images) = images {
         found = images.own_pairs(found, &slave)?;
     }

@@ -81,6 +81,8 @@ pub struct SurfaceReport {
     pub boxes_searched: usize,
     /// Planes of symmetry that no slave node stands on.
     pub idle_planes: Vec<usize>,
+    /// Planes of symmetry beside which a slave node stands, and not on it: each with the nearest of these nodes and its distance.
+    pub beside_planes: Vec<(usize, usize, f64)>,
     /// Slave faces that look away from an obstacle that is a shape.
     pub looking_away: usize,
     /// Slave faces whose pairs overlap the other side in the mean, or which do in places while gaps differ by more than their mean,

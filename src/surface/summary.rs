@@ -96,6 +96,13 @@ impl SurfacePairs {
         if !idle.is_empty() {
             found += &format!("; no slave node stands on plane of symmetry {}", idle.join(", "));
         }
+        for (plane, node, distance) in &report.beside_planes {
+            let (node, plane) = (index(*node), index(*plane));
+            found += &format!(
+                "; slave node {node} is {distance:.1e} away from plane of symmetry {plane} and does not count as on it: if it \
+                 should, give the plane, and coordinates, with more digits"
+            );
+        }
         if self.images.are_of_sector() {
             let first = self.images.on_first();
             let on = self.pairs.iter().filter(|pair| first.contains(&pair.slave)).count();

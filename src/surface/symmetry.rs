@@ -28,6 +28,9 @@ pub(super) struct Mirror {
     pub(super) nodes: Vec<usize>,
 }
 
+/// A node that is nearer to a plane than this share of what a face of it reaches away from there seems to be meant on it.
+const BESIDE: f64 = 0.05;
+
 /// The nodes of a side that stand on planes of symmetry, or on an axis.
 #[derive(Debug, Default)]
 pub(super) struct OnPlanes {
@@ -41,6 +44,8 @@ pub(super) struct OnPlanes {
     pub(super) mirrors: Vec<Mirror>,
     /// The planes that no node stands on.
     pub(super) idle: Vec<usize>,
+    /// The planes beside which a node stands, each with the nearest such node and its distance.
+    pub(super) beside: Vec<(usize, usize, f64)>,
 }
 
 impl OnPlanes {
@@ -137,6 +142,8 @@ impl OnPlanes {
             nodes.iter().filter(|node| height(node).abs() <= near).copied().collect();
         on.iter().for_each(|node| self.add(*node, across));
         self.idle.extend(on.is_empty().then_some(k));
+        let beside = nearest_beside(side, |node| height(&node).abs(), near);
+        self.beside.extend(beside.map(|(node, distance)| (k, node, distance / side.scale)));
         self.mirrors.push(Mirror { motion: Motion::mirror(across, plane.at), nodes: on });
         Ok(())
     }
@@ -191,6 +198,22 @@ impl OnPlanes {
         let given = |across: &[Vector3]| across.iter().copied().map(Into::into).collect();
         told.extend(self.across.iter().map(|(node, across)| (*node, given(across))));
     }
+}
+
+/// The nearest node, with its distance, of those beside a plane and not on it, as a direction of few digits leaves them.
+fn nearest_beside(
+    side: &Side<'_>,
+    distance: impl Fn(usize) -> f64,
+    near: f64,
+) -> Option<(usize, f64)> {
+    let of_face = |at: usize| {
+        let nodes = side.face(at).nodes;
+        let reach = nodes.iter().map(|&node| distance(node)).fold(0.0, f64::max);
+        let is_beside =
+            move |(_, distance): &(usize, f64)| near < *distance && *distance <= BESIDE * reach;
+        nodes.iter().map(|&node| (node, distance(node))).filter(is_beside)
+    };
+    (0..side.count()).flat_map(of_face).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 impl Side<'_> {

@@ -231,7 +231,8 @@ class Rows(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, says):
                 signorini.section_equations(dofs, opposite, 60, [0, 0, 1], (places, others))
         twice = places[[0, 0, *range(2, 9)]]
-        for given, says in ((twice, places), "two nodes of dofs are at the place of one"), (places, r"coordinates\[0\] has the shape \(3,\)"):
+        for given, says in (((twice, places), "two nodes of dofs are at the place of one"),
+                            (places, r"coordinates\[0\] has the shape \(3,\)")):
             with self.assertRaisesRegex(ValueError, says):
                 signorini.section_equations(dofs, opposite, 60, [0, 0, 1], given)
 

@@ -545,6 +545,14 @@ fn wrong_planes_are_refused() {
     assert!(said.ends_with("; no slave node stands on plane of symmetry 0"), "{said}");
     far.report.idle_planes.clear();
     assert_eq!(far, sheets.pair(&SurfaceSettings::default()).unwrap());
+    // Nor does one a hundredth beside its rim, but that is told: faces are half as large as the sheet.
+    let symmetry = vec![SymmetryPlane::across(1, -1.0), SymmetryPlane::across(0, -0.01)];
+    let beside = sheets.pair(&SurfaceSettings { symmetry, ..SurfaceSettings::default() }).unwrap();
+    assert!(
+        matches!(beside.report.beside_planes[..], [(1, _, distance)] if (distance - 0.01).abs() < 1e-15)
+    );
+    let said = beside.summary().to_string();
+    assert!(said.contains(" is 1.0e-2 away from plane of symmetry 1 and does not count"), "{said}");
 }
 
 /// Bodies of revolution may name their axis, which changes nothing. A plane along it is none of theirs.

@@ -204,8 +204,6 @@ class SurfacePairs(Remade):
         along = [int(abs(normal).argmax()) for normal in across
                  if np.count_nonzero(abs(normal) > 1e-6 * abs(normal).max()) == 1]
         self.symmetry_axes = along + ([0] if axisymmetric else [])
-        is_shape = isinstance(other, _Rigid) and not hasattr(other, "faces")  # which no plane bears on
-        self._planes = None if is_shape or not len(across) else (across, places)
         settings.symmetry_planes = len(across)
         settings.symmetry_normals, settings.symmetry_at = (at(array) if len(across) else None for array in (across, places))
         self.is_sector, self.is_of_rings = sector is not None, bool(axisymmetric)
