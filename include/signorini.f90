@@ -1936,6 +1936,7 @@ contains
             [1, 1, 1])
         if (info /= 0) return
         call keep_arrays(self, [zones(1)%dim, zones(1)%nodes], zones(1)%dofs)
+        self%dofs_of_faces = maxval(zones%dofs_of_faces)
     end subroutine
 
     ! A table of what each zone carries, for a log; empty if that cannot be told.
