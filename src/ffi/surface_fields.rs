@@ -237,7 +237,8 @@ pub unsafe extern "C" fn signorini_surface_penetration(
         let contact = arrays.at(1, "contact").handle(contact)?;
         let (dofs, dim) = (contact.dofs(), contact.found.dim);
         let of_node = |&node: &usize| &dofs[dim * node..dim * (node + 1)];
-        let length = kept.nodes().iter().flat_map(of_node).max().map_or(0, |last| last + 1);
+        let nodes = contact.kept.iter().flat_map(|kept| kept.surfaces.nodes());
+        let length = nodes.flat_map(of_node).max().map_or(0, |last| last + 1);
         let u = arrays.at(2, "u").required(u, length)?;
         let place = arrays.at(3, "penetration").out_structure(penetration)?;
         let moved = |node: usize, axis: usize| u[dofs[dim * node + axis]];
