@@ -288,6 +288,8 @@ class Mistakes(unittest.TestCase):
         for word in ("zone 'cut'", "across the plane x = 0", "symmetry=[(0, 0)]"):
             self.assertIn(word, sentence)
         self.assertEqual(warnings_of(left, symmetry=[(0, 0.0)]), [])
+        both = warnings_of(2 * np.arange(8))[0]
+        self.assertIn("across the planes x = 0 and x = 1: if they are planes of symmetry, give symmetry=[(0, 0), (0, 1)]", both)
         across = (-np.sin(np.pi / 2), np.cos(np.pi / 2))  # 6e-17 along the other axis
         self.assertEqual(warnings_of(left, symmetry=[(across, 0.0)]), [])
         self.assertEqual(warnings_of(np.concatenate([left, left + 1])), [])  # clamped

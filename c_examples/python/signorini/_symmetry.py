@@ -15,7 +15,7 @@ _NEAR = 1e-6  # of the size of the mesh: places are the same
 def warn_of_planes(contact, fixed, name=None):
     """Warns of planes across which supports hold a slave node with a pair and the master node that it faces most.
 
-    All nodes that they hold along an axis, and not along all, stand in the plane.
+    All nodes that they hold along an axis, and not along all, stand in the plane, or in the two planes of a slab.
     """
     fixed = set(np.asarray(fixed).tolist())
     held = [[] for _ in range(contact.dim)]
@@ -34,11 +34,18 @@ def warn_of_planes(contact, fixed, name=None):
             continue
         places = contact.coordinates[nodes, axis]
         rounding = 1e-9 * np.ptp(contact.coordinates, axis=0).max()
-        if np.ptp(places) <= rounding:
-            of = f"zone {name!r}: " if name else ""
-            place = 0.0 if abs(places[0]) <= rounding else places[0]
-            tell(f"{of}supports hold both sides across the plane {AXES[axis]} = {place:g}: if it is a plane of symmetry, give "
-                 f"symmetry=[({axis}, {place:g})] to pair_surfaces")
+        ends = places.min(), places.max()
+        # A slab has two, and nodes on them alone.
+        if np.minimum(places - ends[0], ends[1] - places).max() > rounding:
+            continue
+        planes = [0.0 if abs(place) <= rounding else place for place in ends[:2 if ends[1] - ends[0] > rounding else 1]]
+        across = " and ".join(f"{AXES[axis]} = {place:g}" for place in planes)
+        named = ", ".join(f"({axis}, {place:g})" for place in planes)
+        of, plane, are = f"zone {name!r}: " if name else "", "plane", "it is a plane"
+        if len(planes) > 1:
+            plane, are = "planes", "they are planes"
+        tell(f"{of}supports hold both sides across the {plane} {across}: if {are} of symmetry, give symmetry=[{named}] to "
+             f"pair_surfaces")
 
 
 def warn_of_nodes_beside(contact, name=None):
