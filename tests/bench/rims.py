@@ -1,6 +1,6 @@
 """Pressures at rims of unstructured meshes of gmsh: of a pressure that is linear, and of a pin longer than its lug.
 
-    python3 tests/bench/rims.py [linear] [pin] [matching]
+    python3 tests/bench/rims.py [linear] [pin] [matching] [delaunay]
 
 It needs gmsh (PyPI), numpy and scipy. mm, N, MPa.
 
@@ -9,6 +9,7 @@ displacements are those of a pressure p (1 + 0.3 x + 0.8 y), or p. The largest e
 pin: a pin of 16 mm in a lug of 10 mm, clearance 0.05, pushed by its end; beside the same pin partitioned where the lug
 ends, of which the faces under the lug alone are slaves. The lateral force besides on the same mesh whose rows are all kept:
 the difference is what folding adds.
+delaunay: the pin on meshes whose surfaces have Delaunay's triangles, which differ more in shape.
 matching: the partitioned pin whose nodes are those of the lug, and its mirror image: the lateral force that a mesh has of its
 own, as it is not symmetric.
 """
@@ -119,7 +120,7 @@ def linear():
               f"farthest fold {worst[3]:.1f} elements", flush=True)
 
 
-def pin_in_lug(kind, size, seed, partitioned):
+def pin_in_lug(kind, size, seed, partitioned, triangles=6):
     """The two bodies."""
     def pin(shapes):
         if kind == "hex20":
@@ -138,7 +139,7 @@ def pin_in_lug(kind, size, seed, partitioned):
         discs = [[(2, shapes.addDisk(0, 0, 0, radius, radius))] for radius in (OUTER, RADIUS)]
         ring, _ = shapes.cut(*discs)
         shapes.extrude(ring, 0, 0, LUG, numElements=[4] if kind == "hex20" else [], recombine=kind == "hex20")
-    return [solid(kind, size, seed, pin), solid(kind, size, seed + 1, lug)]
+    return [solid(kind, size, seed, pin, triangles), solid(kind, size, seed + 1, lug, triangles)]
 
 
 def pressed(kind, bodies, partitioned, pin_is_slave, rims="fold"):
@@ -163,10 +164,13 @@ def pressed(kind, bodies, partitioned, pin_is_slave, rims="fold"):
     return (RADIUS * np.arctan2(x, -y), z), pairs, found
 
 
-def pin():
-    meshes = [("hex20", 3.0, 1)] + [("tet10", size, seed) for size in SIZES for seed in (1, 2, 3)]
+def delaunay():
+    pin([("tet10", size, seed) for size in (2.8, 2.6, 2.2) for seed in (1, 2, 3)], 5)
+
+
+def pin(meshes=[("hex20", 3.0, 1)] + [("tet10", size, seed) for size in SIZES for seed in (1, 2, 3)], triangles=6):
     for kind, size, seed in meshes:
-        bodies, parts = (pin_in_lug(kind, size, seed, partitioned) for partitioned in (False, True))
+        bodies, parts = (pin_in_lug(kind, size, seed, partitioned, triangles) for partitioned in (False, True))
         for pin_is_slave in (True, False):
             place, pairs, found = pressed(kind, bodies, False, pin_is_slave)
             kept = pressed(kind, bodies, False, pin_is_slave, "keep")[2] if len(pairs.folded) else found
@@ -205,4 +209,4 @@ def matching():
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or ["linear", "pin", "matching"]:
-        {"linear": linear, "pin": pin, "matching": matching}[name]()
+        {"linear": linear, "pin": pin, "matching": matching, "delaunay": delaunay}[name]()

@@ -87,13 +87,13 @@ class Element:
         return faces[times[back.ravel()] == 1]
 
 
-def solid(kind, size, seed, build):
+def solid(kind, size, seed, build, triangles=6):
     """Coordinates and elements of a body of this size of elements. `build` makes its shape, tetrahedra or, by a sweep
-    of quadrilaterals, bricks."""
+    of quadrilaterals, bricks; `triangles` is gmsh's Mesh.Algorithm of surfaces: 6 is its default, 5 Delaunay's."""
     element = Element(kind)
     gmsh.initialize()
     for name, value in (("General.Terminal", 0), ("Mesh.RandomSeed", seed), ("Mesh.MeshSizeMin", size),
-                        ("Mesh.MeshSizeMax", size), ("Mesh.SecondOrderIncomplete", 1),
+                        ("Mesh.MeshSizeMax", size), ("Mesh.SecondOrderIncomplete", 1), ("Mesh.Algorithm", triangles),
                         ("Mesh.RecombineAll", int(kind == "hex20"))):
         gmsh.option.setNumber(name, value)
     build(gmsh.model.occ)
