@@ -35,6 +35,48 @@ def bar():
     return signorini.Model.from_surfaces(bar.matrix, contact, fixed=bar.held).solve(bar.load, mu=1.0)
 
 
+def acted(contact, F, state):
+    """A result of these forces and states."""
+    return signorini.Result(0 * F, F, np.asarray(state, np.int32), 0, "", *[None] * 3)._replace(contact=contact)
+
+
+def sheet(cells, wide=1.0, start=0.0, across=(0, 1), quadratic=False):
+    """Squares of a sheet on a plane, with pressures, tractions and all three states: a result."""
+    step = 2 if quadratic else 1
+    line = np.arange(step * cells + 1)
+    row, at = len(line), np.zeros((len(line) ** 2, 3))
+    at[:, across] = np.stack(np.meshgrid(line, line, indexing="ij"), axis=2).reshape(-1, 2) * wide / line[-1]
+    at[:, across[0]] += start
+    around = ([0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]) if quadratic else ([0, 0], [1, 0], [1, 1], [0, 1])
+    squares = [[(step * i + x) * row + step * j + y for x, y in around] for i in range(cells) for j in range(cells)]
+    outward = np.delete(np.eye(3), across, axis=1).T[0]
+    contact = signorini.pair_obstacle(at, squares, signorini.Plane([0, 0, 0], outward))
+    away = ((contact.points[:, across] - at[:, across].mean(axis=0)) ** 2).sum(axis=1) / wide ** 2
+    pressure = np.maximum(0.2 - away, 0) * wide
+    F = np.column_stack([-pressure, 0.3 * pressure, 0 * pressure]) * contact.areas[:, None]
+    state = np.where(pressure == 0, signorini.State.OPEN, np.where(away > 0.1, signorini.State.SLIP, signorini.State.STICK))
+    return acted(contact, F, state)
+
+
+def pixels(axes):
+    """The picture that axes are on, (rows, columns, 3), without a new layout."""
+    figure = axes.figure
+    figure.canvas.draw()
+    figure.set_layout_engine("none")
+    return np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def covered(axes, faces):
+    """The share of the pixels of faces that other things on the axes change; these are not seen afterwards."""
+    whole = pixels(axes)
+    for other in (*axes.collections, *axes.lines):
+        other.set_visible(other is faces)
+    alone = pixels(axes)
+    faces.set_visible(False)
+    seen = (alone != pixels(axes)).any(axis=2)
+    return ((whole != alone).any(axis=2) & seen).sum() / seen.sum()
+
+
 class Plots(unittest.TestCase):
     def save(self, axes, name):
         path = os.path.join(WORK, name + ".png")
@@ -79,6 +121,76 @@ class Plots(unittest.TestCase):
         matplotlib.pyplot.close(flat.figure)
         with self.assertRaisesRegex(ValueError, "has no pairs"):
             result._replace(d=F[:0], F=F[:0], state=result.state[:0]).plot()
+
+    def test_marks_leave_faces_of_any_number_to_be_seen(self):
+        for cells, quadratic in (3, False), (10, False), (40, False), (20, True):
+            result = sheet(cells, quadratic=quadratic)
+            axes = result.plot()
+            faces = axes.collections[0]
+            # Corners of squares, and of the four parts of each with nine nodes.
+            self.assertEqual(len(faces.get_array()), cells ** 2 * (4 if quadratic else 1))
+            share = covered(axes, faces)
+            self.assertTrue(0 < share < 0.25, f"{share} of {cells} x {cells} faces are covered")
+            matplotlib.pyplot.close(axes.figure)
+
+    def test_states_that_alternate_hide_nothing(self):
+        result = sheet(30)
+        pairs = len(result.F)
+        axes = result._replace(state=np.arange(pairs, dtype=np.int32) % 2 + signorini.State.SLIP).plot()
+        self.assertLess(covered(axes, axes.collections[0]), 0.25)
+        matplotlib.pyplot.close(axes.figure)
+
+    def test_zones_on_the_same_axes_have_one_scale(self):
+        parts = [sheet(6), sheet(6, wide=4.0, start=2.0)]
+        axes = parts[0].plot()
+        parts[1].plot(axes)
+        drawn = [one for one in axes.collections if one.get_array() is not None]
+        scales = {one.get_clim() for one in drawn}
+        pressures = [part.contact.fields(part).pressure[np.array(part.contact.slave_faces)].mean(axis=1) for part in parts]
+        # From zero to the largest of both, on one bar.
+        self.assertEqual(len(scales), 1)
+        np.testing.assert_allclose([*scales][0], (0, max(map(np.max, pressures))))
+        np.testing.assert_allclose(np.concatenate([one.get_array() for one in drawn]), np.concatenate(pressures))
+        self.assertEqual(len(axes.figure.axes), 2)
+        words = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertEqual(len(words), len(set(words)))
+        self.save(axes, "result_3d_zones")
+
+    def test_the_next_result_of_a_zone_takes_the_place_of_the_last(self):
+        result = sheet(4)
+        axes = result.plot()
+        result._replace(F=2 * result.F).plot(axes)
+        pressure = result.contact.fields(result).pressure[np.array(result.contact.slave_faces)].mean(axis=1)
+        np.testing.assert_allclose(axes.collections[0].get_array(), 2 * pressure)
+        axes.clear()
+        result.plot(axes)
+        np.testing.assert_allclose(axes.collections[0].get_array(), pressure)
+        matplotlib.pyplot.close(axes.figure)
+
+    def test_marks_behind_faces_are_not_seen(self):
+        behind, front = sheet(6), sheet(1, wide=10.0, start=-5.0, across=(1, 2))
+        axes = behind.plot()
+        axes.view_init(elev=0, azim=0)
+        # Along x a sheet in the plane of y and z at x = 0 hides what is at x < 0.
+        front._replace(F=0 * front.F, state=0 * front.state).plot(axes)
+        axes.figure.canvas.draw()
+        picture = axes.collections[0].signorini
+        places = np.array([[-1.0, 0, 5], [1, 0, 5], [-1, 7, 5]])
+        np.testing.assert_array_equal(picture.hidden(places), [True, False, False])
+        matplotlib.pyplot.close(axes.figure)
+
+    def test_several_zones_are_drawn_together(self):
+        at = np.array([[0.0, 0], [1, 0], [2, 0], [5, 1], [7, 1]])
+        planes = {"low": signorini.pair_obstacle(at, [[0, 1], [1, 2]], signorini.Plane([0, 0], [0, 1])),
+                  "high": signorini.pair_obstacle(at, [[3, 4]], signorini.Plane([0, 1], [0, 1]))}
+        model = signorini.Model.from_surfaces((np.ones(10), np.arange(10), np.arange(11)), planes)
+        result = model.solve(np.tile([0.0, -1], 5), mu=0.3)
+        axes = result.plot()
+        x, pressure = axes.lines[0].get_data()
+        np.testing.assert_array_equal(x, [0, 1, 2, np.nan, 2, 4])
+        np.testing.assert_allclose(pressure, [2, 1, 2, np.nan, 1, 1])
+        self.assertEqual([text.get_text() for text in axes.texts], ["low", "high"])
+        self.save(axes, "result_2d_zones")
 
     def test_in_3d_on_the_faces(self):
         blocks = brick_mesh.two_blocks()

@@ -33,6 +33,11 @@ class Zones(unittest.TestCase):
         self.load = np.zeros(12)
         self.load[[1, 3, 5, 7]] = -4
 
+    def test_a_list_of_them_is_their_dict(self):
+        springs = (np.repeat([1.0, 2.0, 4.0], 4), np.arange(12), np.arange(13))
+        model = signorini.Model.from_surfaces(springs, list(self.contacts.items()))
+        self.assertEqual(*(repr(one.solve(self.load, mu=0.3).table()) for one in (model, self.model)))
+
     def test_forces_are_those_of_the_closed_form(self):
         p, q = np.linalg.solve([[1.5, -0.5], [-0.5, 0.75]], [4 - 2 - 0.2, 2 - 0.1])
         result = self.model.solve(self.load, mu=0.3)
@@ -327,6 +332,12 @@ class Zones(unittest.TestCase):
             signorini.Model.from_surfaces(np.eye(2), [below])
         with self.assertRaisesRegex(TypeError, "zones names a zone 1: give a text"):
             signorini.Model.from_surfaces(np.eye(2), {1: self.contacts["above"]})
+        named = [(name, self.contacts["above"]) for name in ("plate", "plate")]
+        with self.assertRaisesRegex(ValueError, "two zones are named 'plate': give each a name of its own"):
+            signorini.Model.from_surfaces(np.eye(2), named)
+        for wrong in [self.contacts["above"]], [("above", *self.contacts.values())]:
+            with self.assertRaisesRegex(TypeError, r"give \(name, SurfacePairs\) for each zone"):
+                signorini.Model.from_surfaces(np.eye(2), wrong)
         with self.assertRaisesRegex(ValueError, r"gap\['above'\] has the shape \(3, 2\): .* of its 2 pairs; for cases"):
             self.model.solve(np.array([self.load] * 3), {"above": np.zeros((3, 2)), "below": 0.0}, 0.3)
         with self.assertRaisesRegex(ValueError, r"mu\['above'\] has the shape \(3,\): give one number, or those, shape \(2,\)"):

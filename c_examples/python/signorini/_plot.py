@@ -5,7 +5,10 @@ import numpy as np
 from ._arrays import reals
 from ._constants import State
 
-COLOURS = {State.OPEN: "0.6", State.SLIP: "tab:orange", State.STICK: "tab:blue"}
+# Of each state: name, colour and marker. Of more pairs than so many, about, some have a mark.
+STATES = {State.OPEN: ("open", "0.6", "o"), State.SLIP: ("slips", "tab:orange", "^"), State.STICK: ("sticks", "white", "s")}
+MARKED = 100
+_FORCES = "signorini: forces"
 _MISSING = "a picture needs matplotlib: pip install matplotlib (Debian: python3-matplotlib)"
 
 
@@ -22,7 +25,8 @@ def plot(result, axes, at):
             raise ValueError(f"at has the shape {at.shape}: give the place of each pair, shape {(pairs, dim)}")
     if not pairs:
         raise ValueError("the result has no pairs: there is nothing to draw")
-    whole = at is None and hasattr(result.contact, "slave_faces")
+    zones = getattr(result.contact, "contacts", None)
+    whole = at is None and (zones or hasattr(result.contact, "slave_faces"))
     space = dim == 3 and (whole or at is not None)
     if axes is not None and (axes.name == "3d") != space:
         wanted = 'add_subplot(projection="3d")' if space else "add_subplot()"
@@ -30,39 +34,65 @@ def plot(result, axes, at):
     if axes is None:
         axes = pyplot.figure(layout="constrained").add_subplot(projection="3d" if space else None)
     if whole:
-        (_surface if dim == 3 else _line)(result, axes)
-    elif at is None:
-        _curves(result, axes, np.arange(1.0, pairs + 1), "pair", "force", result.F)
-    elif dim == 3:
+        (_surfaces if dim == 3 else _lines)({name: result.zone(name) for name in zones} if zones else {"": result}, axes)
+    elif dim == 3 and at is not None:
         _dots(result, axes, at)
     else:
-        _curves(result, axes, _along(at), "along the contact", "force", result.F)
+        x, name = (np.arange(1.0, pairs + 1), "number of the pair") if at is None else (_along(at), "along the contact")
+        _curves(axes, x, result.F, result.state, (name, "force", "pressing force", "force along the surface"))
     return axes
 
 
-def _curves(result, axes, x, x_label, y_label, values, parts=None):
-    """Normal and tangential values over x, with the states as colours; curves end where a part does."""
-    order = np.argsort(x, kind="stable")
+def _curves(axes, x, values, states, names, parts=None):
+    """Normal and tangential values over x, with the states as marks; curves end where a part does."""
     parts = np.zeros(len(x)) if parts is None else parts
+    order = np.lexsort((x, parts))
     ends = np.flatnonzero(np.diff(parts[order])) + 1
     tangential = values[:, 1] if values.shape[1] == 2 else np.hypot(values[:, 1], values[:, 2])
-    for numbers, style, name in ((-values[:, 0], "-", "normal, pressed"), (tangential, "--", "tangential")):
+    *labels, normal_name, tangential_name = names
+    for numbers, style, name in ((-values[:, 0], "-", normal_name), (tangential, "--", tangential_name)):
         drawn = (np.insert(ordered[order], ends, np.nan) for ordered in (x, numbers))
         axes.plot(*drawn, style, color="0.3", linewidth=1, label=name, zorder=1)
-    for state, colour in COLOURS.items():
-        of = result.state == state
-        if of.any():
-            axes.scatter(x[of], -values[of, 0], color=colour, s=18, label=state.name.lower(), zorder=2)
-    axes.set(xlabel=x_label, ylabel=y_label)
-    axes.legend()
+    marked = _marked(states[order], parts[order])
+    for state, (name, color, marker) in STATES.items():
+        of = order[marked & (states[order] == state)]
+        if len(of):
+            axes.scatter(x[of], -values[of, 0], color=color, marker=marker, s=18, edgecolor="0.3", linewidth=0.5, label=name,
+                         zorder=2)
+    axes.set(**dict(zip(("xlabel", "ylabel"), labels)))
+    handles, named = axes.get_legend_handles_labels()
+    axes.legend(*zip(*dict(zip(named, zip(handles, named))).values()))
 
 
-def _line(result, axes):
-    """In 2D: pressure and traction of the pairs over the arc of the slave's surface."""
-    contact = result.contact
-    arc = _arcs(contact)
-    x, parts = np.array([arc[node] for node in contact.nodes.tolist()]).T
-    _curves(result, axes, x, "along the slave's surface", "force / area", result.F / contact.areas[:, None], parts)
+def _marked(states, parts):
+    """Tells which pairs in a row have a mark: all if they are few, else some, and the ends of those of one state if these are few."""
+    count = len(states)
+    marked = np.arange(count) % -(-count // MARKED) == 0
+    ends = np.diff(states + len(State) * np.unique(parts, return_inverse=True)[1]) != 0
+    if ends.sum() <= MARKED:
+        marked |= np.append(ends, True) | np.append(True, ends)
+    return marked
+
+
+def _lines(parts, axes):
+    """In 2D: pressure and traction of the pairs over the arc of the slave's surface, of zones one after the other."""
+    x, values, states, chains, start, between = [], [], [], [], 0.0, []
+    for number, (name, part) in enumerate(parts.items()):
+        contact, arc = part.contact, _arcs(part.contact)
+        along = np.array([arc[node] for node in contact.nodes.tolist()]).reshape(-1, 2)
+        end = start + max(length for length, _ in arc.values())
+        between.append(start)
+        x.append(start + along[:, 0])
+        values.append(part.F / contact.areas[:, None])
+        states.append(part.state)
+        chains.append(number + along[:, 1] / len(arc))
+        axes.text((start + end) / 2, 1, name, transform=axes.get_xaxis_transform(), ha="center", va="bottom")
+        start = end
+    where = "along the slave's surface" if len(parts) == 1 else "along the slaves' surfaces, zone after zone"
+    names = (f"{where} (length)", "force per area", "pressure", "traction along the surface")
+    _curves(axes, *map(np.concatenate, (x, values, states)), names, np.concatenate(chains))
+    for place in between[1:]:
+        axes.axvline(place, color="0.8", linewidth=0.8, zorder=0)
 
 
 def _arcs(contact):
@@ -85,53 +115,35 @@ def _arcs(contact):
     return arc
 
 
-def _surface(result, axes):
-    """In 3D: pressure on the slave's faces, and tangential tractions as arrows."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+def _surfaces(parts, axes):
+    """In 3D: pressure on the slaves' faces, with tangential tractions and states."""
+    from ._pressure import Picture
 
-    contact = result.contact
-    fields = contact.fields(result)
-    faces = [face[:3 if len(face) in (3, 6) else 4] for face in contact.drawn_faces]
-    pressure = np.array([fields.pressure[face].mean() for face in faces])
-    before = _limits(axes)
-    drawn = Poly3DCollection([contact.coordinates[face] for face in faces], cmap="viridis",
-                             edgecolor="0.5", linewidth=0.3, alpha=0.9)
-    drawn.set_array(pressure)
-    drawn.set_zorder(1)
-    axes.computed_zorder = False  # arrows and dots lie on the faces, not in them
-    axes.add_collection3d(drawn)
-    axes.figure.colorbar(drawn, ax=axes, label="pressure, force / area", shrink=0.7, pad=0.12)
-    _arrows(axes, contact, result)
-    _legend(axes, result, contact.points)
-    _frame(axes, np.vstack([before, contact.coordinates[np.unique(np.concatenate(faces))]]))
-
-
-def _arrows(axes, contact, result):
-    """Tangential tractions of the pairs as arrows, the longest a tenth of the picture."""
-    second = np.cross(contact.normals, contact.tangents)
-    traction = (result.F[:, 1:2] * contact.tangents + result.F[:, 2:3] * second) / contact.areas[:, None]
-    largest = np.linalg.norm(traction, axis=1).max(initial=0.0)
-    if largest > 0:
-        size = 0.1 * np.ptp(contact.points, axis=0).max()
-        axes.quiver(*contact.points.T, *(traction * size / largest).T, color="crimson", linewidth=1.2, zorder=2,
-                    label="traction along the surface")
+    pictures = (drawn.signorini for drawn in axes.collections if hasattr(drawn, "signorini"))
+    picture = next(pictures, None) or Picture(axes)
+    # Limits that are not of this picture are of other things on the axes.
+    if picture.limits is not None and (_limits(axes) == picture.limits).all():
+        others = np.empty((0, 3))
+    else:
+        others = _limits(axes)
+    picture.add(parts.values())
+    _frame(axes, np.vstack([others, *(polygon for part in picture.parts for polygon in part.polygons)]))
+    picture.limits = _limits(axes)
 
 
 def _dots(result, axes, at):
     """In 3D without faces: normal forces as colours at given places."""
     before = _limits(axes)
-    drawn = axes.scatter(*at.T, c=-result.F[:, 0], cmap="viridis", depthshade=False)
-    axes.figure.colorbar(drawn, ax=axes, label="normal force, pressed", shrink=0.7, pad=0.12)
+    # Forces on axes have one scale, as pressures do.
+    others = [drawn for drawn in axes.collections if drawn.get_gid() == _FORCES]
+    drawn = axes.scatter(*at.T, c=-result.F[:, 0], cmap="viridis", depthshade=False, gid=_FORCES)
+    forces = np.concatenate([one.get_array() for one in (*others, drawn)])
+    if others:
+        drawn.set_norm(others[0].norm)
+    else:
+        axes.figure.colorbar(drawn, ax=axes, label="pressing force", shrink=0.7, pad=0.12)
+    drawn.set_clim(min(forces.min(), 0.0), max(forces.max(), 0.0))
     _frame(axes, np.vstack([before, at]))
-
-
-def _legend(axes, result, at):
-    for state, colour in COLOURS.items():
-        of = result.state == state
-        if of.any():
-            axes.scatter(*at[of].T, color=colour, s=14, depthshade=False, zorder=3,
-                         label=state.name.lower())
-    axes.legend(loc="upper left")
 
 
 def _limits(axes):

@@ -81,10 +81,12 @@ class Result(_Fields):
     def plot(self, axes=None, *, at=None):
         """Draws contact forces and states by matplotlib; returns its axes, which you show or save.
 
-        With pairs from surfaces of one zone: in 2D pressure and traction along the slave's surface, in 3D the
-        pressure on the slave's faces, and tractions as arrows. With at, the places of the
-        pairs, (P, D): forces at them. Otherwise forces pair by pair.
-        axes: where to draw, in 3D axes with projection="3d"; None: new ones.
+        With pairs from surfaces: in 2D pressure and traction along the slave's surface, of several zones one after the other;
+        in 3D the pressure on the slave's faces, with the edges of what presses and of what sticks, and at some hundred
+        pairs marks of their states and arrows of their tractions. With at, the places of the pairs, (P, D): forces at
+        them. Otherwise forces pair by pair.
+        axes: where to draw, in 3D axes with projection="3d"; None: new ones. Zones on the same axes in 3D have one scale
+        of colours, and the next result of a zone takes the place of its last.
         """
         from ._plot import plot  # only now: matplotlib takes its time
 
