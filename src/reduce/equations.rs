@@ -180,14 +180,12 @@ impl Dependents {
         gathered(sum)
     }
 
-    /// The degrees of freedom below `size` that may have no stiffness of their own: dependents, and those that get it
-    /// from them, as of the reference point of a rigid body.
+    /// The degrees of freedom below `size` that may have no stiffness of their own: dependents, and those of which they are
+    /// made, as of the reference point of a rigid body.
     pub(super) fn without_own_stiffness(&self, size: usize) -> Vec<bool> {
         let mut may = vec![false; size];
-        for (dof, terms) in self.of_matrix(size) {
-            may[dof] = true;
-            terms.iter().for_each(|(k, _)| may[*k] = true);
-        }
+        self.of_matrix(size).for_each(|(dof, _)| may[dof] = true);
+        self.terms.values().flatten().for_each(|(dof, _)| may[*dof] = true);
         may
     }
 

@@ -121,6 +121,15 @@ impl ContactPairs<'_> {
         Ok(Rows::new(self.dim, equations.collect(), self.slaves))
     }
 
+    /// Marks what rows by degree of freedom name, as the unknowns of a rigid body: with those marked before it may have no
+    /// stiffness of its own. Of a node's row that stiffness is missing.
+    pub(super) fn without_own_stiffness(&self, mut marked: Vec<bool>) -> Vec<bool> {
+        let of_rows = self.masters.iter().filter(|_| self.vectors.is_some());
+        of_rows
+            .for_each(|dof| marked.iter_mut().skip(*dof).take(1).for_each(|marked| *marked = true));
+        marked
+    }
+
     fn check_lengths(&self) -> Result<(), Error> {
         let (dim, count) = (self.dim, self.count);
         checked_dim(dim)?;
@@ -264,13 +273,6 @@ impl Rows {
     pub(super) fn new(dim: usize, equations: Vec<Terms>, slaves: &[usize]) -> Self {
         let have_own_slaves = !slaves.is_empty() && stand_once(slaves, &equations);
         Rows { dim, equations, have_own_slaves }
-    }
-
-    /// Marks the degrees of freedom of the matrix that the rows name: with those marked before they may have no stiffness of
-    /// their own.
-    pub(super) fn without_own_stiffness(&self, mut marked: Vec<bool>) -> Vec<bool> {
-        self.equations.iter().flatten().for_each(|(dof, _)| marked[*dof] = true);
-        marked
     }
 
     /// The equations of a pair, one for each axis.

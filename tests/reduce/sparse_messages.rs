@@ -286,7 +286,7 @@ fn a_degree_of_freedom_without_stiffness_may_be_fixed() {
     .unwrap();
     for change in [&stored_zero as &dyn Fn(&mut Input), &missing] {
         matrix(
-            "nothing resists degree of freedom 5: list it in fixed, give it stiffness, or name it in a pair",
+            "nothing resists degree of freedom 5: list it in fixed, or give it stiffness",
             change,
         );
         let model = Input::with(|input| {

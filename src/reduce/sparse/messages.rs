@@ -120,7 +120,7 @@ pub(super) fn not_symmetric(
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
 pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
     format!(
-        "nothing resists degree of freedom {}: list it in fixed, give it stiffness, or name it in a pair ({} is {is})",
+        "nothing resists degree of freedom {}: list it in fixed, or give it stiffness ({} is {is})",
         index(dof),
         entry("K", [dof, dof])
     )

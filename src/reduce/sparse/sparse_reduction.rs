@@ -65,7 +65,7 @@ impl SparseReduction {
         (control.ask)(0.0, 0)?;
         let rank = control.order.map(|order| ranks(matrix.size, order)).transpose()?;
         let rows = pairs.rows(matrix.size, dependents)?;
-        let may_lack = rows.without_own_stiffness(dependents.without_own_stiffness(matrix.size));
+        let may_lack = pairs.without_own_stiffness(dependents.without_own_stiffness(matrix.size));
         check_diagonal("K", &host, |dof| places[dof].is_some() || may_lack[dof])?;
         let mut frames = pairs.frames()?;
         let may_turn = pairs.tangents.is_none();
