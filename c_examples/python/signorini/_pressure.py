@@ -77,7 +77,8 @@ class Picture:
         if self.faces not in self.axes.collections:
             self.axes.add_collection3d(self.faces)
             self.axes.figure.colorbar(self.faces, ax=self.axes, label="contact pressure (force per area)", shrink=0.7, pad=0.12)
-        self.faces.set(edgecolor=(0, 0, 0, 0.25) if len(polygons) <= _EDGED else "face", linewidth=0.3)
+        edged = len(polygons) <= _EDGED
+        self.faces.set(edgecolor=(0, 0, 0, 0.25) if edged else "none", linewidth=0.3, antialiased=edged)
         self._choose()
         self.over = [*self._borders(), *self._arrows(), *self._marks()]
         self._legend()
