@@ -1,6 +1,6 @@
 //! Small least-squares problems: a few columns, of which some may depend on others.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
 use super::gmres::{orthogonalised, solve_triangle};
 use super::tolerances::ROUNDING;
@@ -14,20 +14,59 @@ pub fn least_squares(columns: impl Iterator<Item = Vec<f64>>, target: &[f64]) ->
     columns.coefficients(columns.take_out(&mut target.to_vec()))
 }
 
-/// Of all coefficients by which columns come nearest to a target those whose sum of squares is least. What changes a sum of
-/// columns by less than this part of the most counts as nothing.
-pub fn least_coefficients(columns: &[Vec<f64>], target: &[f64], part: f64) -> Vec<f64> {
-    let column = |column: &Vec<f64>| DVector::from_column_slice(column);
-    let columns = DMatrix::from_columns(&columns.iter().map(column).collect::<Vec<_>>());
-    let factors = columns.clone().svd(true, true);
-    let least = part * factors.singular_values.max();
-    let solved =
-        |right: &DVector<f64>| factors.solve(right, least).expect("both factors are there");
-    let target = DVector::from_column_slice(target);
-    let first = solved(&target);
-    // Columns that are nearly dependent have left rounding, which a second solution takes out.
-    let found = &first + solved(&(target - columns * &first));
-    found.as_slice().to_vec()
+/// A matrix of any size.
+pub type Matrix = DMatrix<f64>;
+
+/// One column of any length.
+pub type Column = DVector<f64>;
+
+/// Columns of which some may depend on others, for many targets.
+pub struct Nearest {
+    columns: DMatrix<f64>,
+    factors: SVD<f64, Dyn, Dyn>,
+    least: f64,
+    /// A basis of the coefficients that change nothing.
+    free: DMatrix<f64>,
+}
+
+impl Nearest {
+    /// What changes a sum of columns by less than `part` of the most counts as nothing.
+    pub fn new(columns: &[Vec<f64>], part: f64) -> Self {
+        let count = columns.len();
+        // As many rows as columns at least: the factors then have all that changes nothing.
+        let rows = columns[0].len().max(count);
+        let entry = |i: usize, j: usize| columns[j].get(i).copied().unwrap_or(0.0);
+        let columns = DMatrix::from_fn(rows, count, entry);
+        let factors = columns.clone().svd(true, true);
+        let least = part * factors.singular_values.max();
+        let right = factors.v_t.as_ref().expect("both factors are there");
+        // In descending order.
+        let held = factors.singular_values.iter().filter(|size| **size > least).count();
+        let free = right.rows(held, count - held).transpose();
+        Nearest { columns, factors, least, free }
+    }
+
+    /// True if some coefficients change nothing.
+    pub fn is_free(&self) -> bool {
+        self.free.ncols() > 0
+    }
+
+    /// Takes coefficients on to some by which columns come nearest to a target; once more takes out the rounding that columns
+    /// which are nearly dependent leave.
+    pub fn improve(&self, found: &mut DVector<f64>, target: &[f64]) {
+        let mut left = -(&self.columns * &*found);
+        left.iter_mut().zip(target).for_each(|(left, target)| *left += target);
+        *found += self.factors.solve(&left, self.least).expect("both factors are there");
+    }
+
+    /// Of all coefficients that are as near as some those whose product with a regular matrix, how dear they are, is smallest.
+    pub fn cheapest(&self, found: &mut DVector<f64>, dear: &DMatrix<f64>) {
+        let (basis, triangle) = (dear * &self.free).qr().unpack();
+        let shares = basis.tr_mul(&(dear * &*found));
+        if let Some(shares) = triangle.solve_upper_triangular(&shares) {
+            *found -= &self.free * shares;
+        }
+    }
 }
 
 /// Columns as an orthonormal basis `C` times a triangle `R`.

@@ -3,6 +3,15 @@
 /// Three components.
 pub type Vector3 = nalgebra::Vector3<f64>;
 
+/// Two components.
+pub type Vector2 = nalgebra::Vector2<f64>;
+
+/// Two rows and columns.
+pub type Matrix2 = nalgebra::Matrix2<f64>;
+
+/// Three rows and two columns.
+pub type Matrix3x2 = nalgebra::Matrix3x2<f64>;
+
 /// Three rows and columns.
 pub type Matrix3 = nalgebra::Matrix3<f64>;
 

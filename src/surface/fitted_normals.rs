@@ -8,19 +8,15 @@
 //! alone. Neither looks across an edge at which faces turn sharply. Images beyond planes of symmetry and boundaries of sectors
 //! count as in the whole body.
 
-use std::collections::{BTreeSet, HashMap};
-use std::f64::consts::SQRT_2;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::digits::ON_PLANE;
 use super::face::Face;
+use super::fitted_quadric::{Form, fit};
 use super::mesh::Side;
 use super::normals::direction;
-use super::plane;
 use super::shape::MOST_NODES;
 use super::watch::Watch;
 use crate::error::Error;
-use crate::linalg::least_squares::least_coefficients;
-use crate::linalg::vector::norm;
 use crate::linalg::vector3::{Vector3, axis, unit};
 use crate::problem::Islands;
 
@@ -28,12 +24,8 @@ use crate::problem::Islands;
 /// divisions of a circle whose nodes are shifted by a fifth have them.
 const SMOOTH: f64 = 0.82;
 
-/// How dear slopes, and products with heights, are beside squares: nodes at the end of a patch have three places along an axis,
-/// through which squares alone lead to the right slope, and those in one layer do not tell of a slope across it.
-const DEAR: [f64; 2] = [3.0, 30.0];
-
-/// Fits, each in the frame of the normal before.
-const TURNS: usize = 2;
+/// Nodes with more faces than this are hubs.
+const MOST_FACES: usize = 16;
 
 /// Unit normals of each face at its nodes.
 pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
@@ -88,10 +80,12 @@ fn on_lines(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     Ok((0..side.count()).map(normals).collect())
 }
 
-/// The smooth surface that each face is a part of, by number.
-fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<usize>, Error> {
+/// The smooth surface that each face is a part of, by number, and the corners at its rims with it.
+type Surfaces = (Vec<usize>, HashSet<(usize, usize)>);
+
+fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Surfaces, Error> {
     let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
-    let mut smooth = Vec::new();
+    let (mut smooth, mut inner) = (Vec::new(), HashSet::new());
     for at in 0..side.count() {
         watch.goes_on()?;
         let face = side.face(at);
@@ -104,6 +98,7 @@ fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<usize>, Er
             let Some((other, others)) = edge else { continue };
             if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
                 smooth.push((at, other));
+                inner.insert(ends.map(|i| face.nodes[i]));
             }
         }
     }
@@ -111,11 +106,23 @@ fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<usize>, Er
     for (number, faces) in Islands::new(side.count(), smooth.into_iter()).each().enumerate() {
         faces.iter().for_each(|&face| surface[face] = number);
     }
-    Ok(surface)
+    let mut rims = HashSet::new();
+    for (at, &surface) in surface.iter().enumerate() {
+        let face = side.face(at);
+        let corners = face.kind.corners();
+        for i in 0..corners {
+            let mut ends = [i, (i + 1) % corners].map(|i| face.nodes[i]);
+            ends.sort_unstable();
+            if !inner.contains(&ends) {
+                rims.extend(ends.map(|node| (surface, node)));
+            }
+        }
+    }
+    Ok((surface, rims))
 }
 
 fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
-    let surface = surfaces(side, watch)?;
+    let (surface, rims) = surfaces(side, watch)?;
     // The faces at each node of a smooth surface.
     let mut around: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
     for (at, &surface) in surface.iter().enumerate() {
@@ -123,8 +130,10 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
             around.entry((surface, node)).or_default().push(at);
         }
     }
+    // A hub of many faces would tell of those far away, to each node around it.
     let ring = |surface: usize, nodes: &BTreeSet<usize>| {
-        let faces = nodes.iter().flat_map(|&node| &around[&(surface, node)]);
+        let faces = nodes.iter().map(|&node| &around[&(surface, node)]);
+        let faces = faces.filter(|faces| nodes.len() == 1 || faces.len() <= MOST_FACES).flatten();
         faces.flat_map(|&at| side.face(at).nodes.to_vec()).collect::<BTreeSet<usize>>()
     };
     let mut normals = HashMap::with_capacity(around.len());
@@ -136,11 +145,23 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
         if is_linear || near.len() < MOST_NODES {
             near = ring(surface, &near);
         }
+        let is_layer = is_linear && near.iter().all(|&node| rims.contains(&(surface, node)));
+        let form = if is_layer {
+            Form::Layer
+        } else if is_linear {
+            Form::Linear
+        } else {
+            Form::Curved
+        };
         near.remove(&node);
         let from = near.iter().map(|&other| side.position(other) - side.position(node));
         // Two nodes may stand at one place.
         let from: Vec<Vector3> = from.filter(|x| x.norm() > 0.0).collect();
-        normals.insert((surface, node), fit(mean(side, faces, node), &from, is_linear));
+        // Places may tell of another side.
+        let mean = mean(side, faces, node);
+        let fitted = fit(mean, &from, form);
+        let normal = if fitted.dot(&mean) > SMOOTH { fitted } else { mean };
+        normals.insert((surface, node), normal);
     }
     let of_face = |(at, &surface): (usize, &usize)| {
         let mut found = [Vector3::zeros(); MOST_NODES];
@@ -160,49 +181,4 @@ fn mean(side: &Side<'_>, faces: &[usize], node: usize) -> Vector3 {
     };
     let sum = faces.iter().map(normal).sum();
     direction(sum, faces.len() as f64).unwrap_or_else(|| normal(&faces[0]))
-}
-
-/// The normal of the quadric through the origin that is nearest to some places; the given one if they tell of another side.
-fn fit(mean: Vector3, places: &[Vector3], is_linear: bool) -> Vector3 {
-    let mut normal = mean;
-    for _ in 0..TURNS {
-        let across = plane::tangents(3, normal);
-        let slopes = slopes(places, [across[0], across[1], normal], is_linear);
-        normal = unit(normal - slopes[0] * across[0] - slopes[1] * across[1]).unwrap_or(normal);
-    }
-    if normal.dot(&mean) > SMOOTH { normal } else { mean }
-}
-
-/// The slopes along two axes of the quadric that is nearest to places. These may leave one free: a pair of planes holds the nodes of
-/// one layer of faces around a cylinder or a cone. Then it is the one of least coefficients, with heights in a unit of their own;
-/// its choice does not depend on how the axes are turned.
-fn slopes(places: &[Vector3], axes: [Vector3; 3], is_linear: bool) -> [f64; 2] {
-    let along = axes.map(|axis| places.iter().map(|x| axis.dot(x)).collect::<Vec<f64>>());
-    let each = (places.len() as f64).sqrt();
-    let size = |of: &[Vec<f64>]| of.iter().map(|x| norm(x) / each).fold(0.0, f64::hypot);
-    let [wide, high] = [size(&along[..2]), size(&along[2..])];
-    if high == 0.0 {
-        return [0.0; 2];
-    }
-    let [a, b, height] = [(0, wide), (1, wide), (2, high)]
-        .map(|(k, size)| along[k].iter().map(|x| x / size).collect::<Vec<f64>>());
-    let column = |a: &[f64], b: &[f64], by: f64| {
-        let values = places.iter().zip(a).zip(b);
-        values.map(|((x, a), b)| by * a * b * (wide / x.norm())).collect::<Vec<f64>>()
-    };
-    let ones = vec![1.0; places.len()];
-    let [of_slope, of_height] = DEAR.map(|dear| 1.0 / dear);
-    let mut columns = vec![
-        column(&a, &ones, of_slope),
-        column(&b, &ones, of_slope),
-        column(&a, &a, 1.0),
-        column(&b, &b, 1.0),
-        column(&a, &b, SQRT_2),
-        column(&height, &height, of_height),
-    ];
-    if is_linear {
-        columns.extend([&a, &b].map(|a| column(a, &height, SQRT_2 * of_height)));
-    }
-    let found = least_coefficients(&columns, &column(&height, &ones, 1.0), ON_PLANE);
-    [0, 1].map(|k| of_slope * found[k] * high / wide)
 }

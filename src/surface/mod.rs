@@ -35,6 +35,7 @@ mod face;
 mod face_checks;
 mod fields;
 mod fitted_normals;
+mod fitted_quadric;
 mod frames;
 mod images;
 mod kept_surfaces;
