@@ -14,7 +14,7 @@ use super::face::Face;
 use super::fitted_quadric::{Form, fit};
 use super::mesh::Side;
 use super::normals::direction;
-use super::shape::MOST_NODES;
+use super::shape::{MANY_FACES, MOST_NODES};
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, axis, unit};
@@ -23,9 +23,6 @@ use crate::problem::Islands;
 /// Neighbours are parts of one smooth surface if the cosine between their normals is above this: 35 degrees, as 13
 /// divisions of a circle whose nodes are shifted by a fifth have them.
 const SMOOTH: f64 = 0.82;
-
-/// Nodes with more faces than this are hubs.
-const MOST_FACES: usize = 16;
 
 /// Unit normals of each face at its nodes.
 pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
@@ -133,7 +130,7 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     // A hub of many faces would tell of those far away, to each node around it.
     let ring = |surface: usize, nodes: &BTreeSet<usize>| {
         let faces = nodes.iter().map(|&node| &around[&(surface, node)]);
-        let faces = faces.filter(|faces| nodes.len() == 1 || faces.len() <= MOST_FACES).flatten();
+        let faces = faces.filter(|faces| nodes.len() == 1 || faces.len() <= MANY_FACES).flatten();
         faces.flat_map(|&at| side.face(at).nodes.to_vec()).collect::<BTreeSet<usize>>()
     };
     let mut normals = HashMap::with_capacity(around.len());

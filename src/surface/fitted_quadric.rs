@@ -18,12 +18,9 @@ use crate::linalg::vector3::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3, unit
 /// not: there they are those of the faces.
 const DEAR: [f64; 3] = [3.0, 1e3, 30.0];
 
-/// Fits, each in the frame of the normal before.
+/// Fits, each in the frame of the normal before, and of twice so many solutions, each with the square of heights from the one before:
+/// off by the square of the angle over which the places reach, to a power that grows by 1.
 const TURNS: usize = 2;
-
-/// Solutions of each fit, each with the square of heights from the one before: off by the square of the angle over which the places
-/// reach, to a power that grows by 1.
-const SOLUTIONS: usize = 4;
 
 /// The faces around a node: linear ones, of which one layer is all, linear ones, and curved ones.
 #[derive(Clone, Copy, PartialEq)]
@@ -116,7 +113,7 @@ impl Places {
         let (heights, squares) =
             (self.column(height, &ones, 1.0), self.column(height, height, 1.0));
         let mut found = Column::zeros(columns.len());
-        for solution in 0..SOLUTIONS {
+        for solution in 0..2 * TURNS {
             let bend = match before {
                 Some(before) if solution == 0 => self.across(before),
                 _ => self.bend(&found),

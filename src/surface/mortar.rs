@@ -28,9 +28,6 @@ use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
-/// Between master faces that are smaller than this part of a slave face nodes of the master are held in the mean alone.
-const MANY: f64 = 0.5;
-
 /// The part of a slave face over master faces, if it lies over any, and `true` if it has the functions of a face that is
 /// covered wholly.
 type Cover = (Option<Covered>, bool);
@@ -153,8 +150,9 @@ impl<'a> Search<'a> {
             return Ok((None, is_off_axis));
         }
         let mut covered = polynomials.project(face.kind, points, &parts);
-        let least = MANY * face.size();
-        covered.holds_many = parts.iter().any(|opposite| master.face(opposite.at).size() < least);
+        // Of master faces that are so small nodes are held in the mean alone.
+        let half = 0.5 * face.size();
+        covered.holds_many = parts.iter().any(|opposite| master.face(opposite.at).size() < half);
         if let Some(shapes) = shapes {
             let gaps = shapes.gaps((at, face), points, &parts);
             covered.gaps = polynomials.fit(&gaps);

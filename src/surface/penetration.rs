@@ -16,27 +16,22 @@
 use std::collections::{BTreeSet, HashSet};
 
 use super::candidates::{Candidates, Reach, SearchFaces};
+use super::digits::ON_PLANE;
 use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
-use super::shape::Local;
+use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
 use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
 
-/// Less than this share of a face's size is rounding of displacements.
-const LEAST: f64 = 1e-6;
-
 /// Pairs hold their nodes in the mean: between nodes, and where a node is folded, faces of two curved surfaces pass by a
 /// small share of their size.
 const LEAST_OF_PAIRED: f64 = 0.1;
-
-/// A node is asked along the normals of so many of its faces: more meet where slivers do, all of which are near each other.
-const MOST_NORMALS: u8 = 16;
 
 /// How far the slave has passed through the master.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -226,7 +221,7 @@ impl KeptSurfaces {
                 let face = slaves[0].face(at);
                 // A node that stands at the end of a face that it is paired with may slide to the next one.
                 let is_held = face.nodes.iter().any(|place| held.nodes[*place]);
-                size.min(face.size()) * if is_held { LEAST_OF_PAIRED } else { LEAST }
+                size.min(face.size()) * if is_held { LEAST_OF_PAIRED } else { ON_PLANE }
             };
             let nodes = faces[0].nodes.iter().enumerate();
             for (corner, &place) in nodes.filter(|(_, place)| asks_again(&mut asked[**place])) {
@@ -271,7 +266,7 @@ impl KeptSurfaces {
             for (local, place) in points.filter(|(_, place)| asks(*place)) {
                 let is_held = place.map_or(face_is_held, is_held);
                 let node = place.map(|&place| self.nodes[place]);
-                let least = size * if is_held { LEAST_OF_PAIRED } else { LEAST };
+                let least = size * if is_held { LEAST_OF_PAIRED } else { ON_PLANE };
                 let passed = through(faces.each_ref(), local, least);
                 let Some((depth, master)) = passed.filter(|(depth, _)| *depth > least) else {
                     continue;
@@ -288,9 +283,10 @@ impl KeptSurfaces {
     }
 }
 
-/// True if a node that so many of its faces have asked is asked once more, which is counted.
-fn asks_again(asked: &mut u8) -> bool {
-    let again = *asked < MOST_NORMALS;
-    *asked += u8::from(again);
+/// True if a node that so many of its faces have asked is asked along the normal of one more, which is counted: those of slivers
+/// are all near each other.
+fn asks_again(asked: &mut usize) -> bool {
+    let again = *asked < MANY_FACES;
+    *asked += usize::from(again);
     again
 }

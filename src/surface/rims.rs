@@ -13,6 +13,7 @@ use super::mesh::Side;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;
+use super::shape::MANY_FACES;
 use super::symmetry::OnPlanes;
 use super::watch::Watch;
 use crate::error::Error;
@@ -48,10 +49,6 @@ const NEXT_BUT_ONE: f64 = 0.02;
 /// A node shares in a row while the least squared distance is more than this part of its own: up to 5 % further away. The
 /// share falls to zero there, so that rows do not jump where one node becomes nearer than another.
 const AS_NEAR: f64 = 0.9;
-
-/// The most nodes that share in a row. More are as near where a rim goes through the point at which slivers meet: each would
-/// have all masters under them.
-const MOST_SHARES: usize = 16;
 
 /// Folds the rows of nodes with little cover: each is shared out to the nearest nodes of its own faces that keep theirs. One
 /// that finds none keeps its own, and takes in others.
@@ -95,7 +92,8 @@ pub(super) fn fold(
         let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
         let mut into: Vec<Weight> = around.into_iter().filter(keeps).map(away).collect();
         into.sort_by(|a, b| a.1.total_cmp(&b.1));
-        into.truncate(MOST_SHARES);
+        // Where a rim goes through the point at which slivers meet each would have all masters under them.
+        into.truncate(MANY_FACES);
         let &(nearest, least) = into.first().expect("a folded node has a home");
         let worth = |(_, away): &Weight| (least / away - AS_NEAR).max(0.0);
         let sum: f64 = into.iter().map(worth).sum();

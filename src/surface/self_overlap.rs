@@ -11,12 +11,9 @@ use super::watch::Watch;
 use crate::error::Error;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
-/// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees.
+/// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees. More than this share of it is common: parts
+/// of a surface whose meshes meet along a curved line overlap by segments of the circle, 0.034 of a square that turns so.
 pub(super) const UPON: f64 = 0.05;
-
-/// More than this share of the smaller face is common. Parts of a surface whose meshes meet along a curved line
-/// overlap by segments of the circle, 0.034 of a square that turns by 23 degrees along it.
-const COMMON: f64 = 0.05;
 
 /// Refuses faces that lie upon each other within `reach`.
 ///
@@ -53,7 +50,7 @@ pub(super) fn check(
             overlaps.points.clear();
             let share = common.map_or(0.0, |part| part.share);
             let share = if share > 0.0 { in_plane.of_smaller(share, &second) } else { 0.0 };
-            if share > COMMON {
+            if share > UPON {
                 return Err(upon(side, (at, other), share));
             }
         }

@@ -4,6 +4,9 @@
 //! `i + 1` at place `i`; then the centre. Lines and quadrilaterals live on -1..1, triangles on the unit
 //! triangle.
 
+/// More faces than these meet at a node only where slivers do. What each of them asks of all others is asked of so many.
+pub(super) const MANY_FACES: usize = 16;
+
 /// Most nodes of a face.
 pub(super) const MOST_NODES: usize = 9;
 

@@ -14,6 +14,7 @@ use super::motion::Motion;
 use super::normals::{at_nodes, direction};
 use super::plane;
 use super::sector::Sector;
+use super::self_overlap::UPON;
 use super::settings::SurfaceSettings;
 use super::symmetry_plane::SymmetryPlane;
 use super::watch::Watch;
@@ -27,9 +28,6 @@ pub(super) struct Mirror {
     /// The nodes on it, ascending.
     pub(super) nodes: Vec<usize>,
 }
-
-/// A node that is nearer to a plane than this share of what a face of it reaches away from there seems to be meant on it.
-const BESIDE: f64 = 0.05;
 
 /// The nodes of a side that stand on planes of symmetry, or on an axis.
 #[derive(Debug, Default)]
@@ -200,7 +198,8 @@ impl OnPlanes {
     }
 }
 
-/// The nearest node, with its distance, of those beside a plane and not on it, as a direction of few digits leaves them.
+/// The nearest node, with its distance, of those beside a plane and not on it, as a direction of few digits leaves them: nearer than
+/// a small share of what a face of theirs reaches away from there.
 fn nearest_beside(
     side: &Side<'_>,
     distance: impl Fn(usize) -> f64,
@@ -210,7 +209,7 @@ fn nearest_beside(
         let nodes = side.face(at).nodes;
         let reach = nodes.iter().map(|&node| distance(node)).fold(0.0, f64::max);
         let is_beside =
-            move |(_, distance): &(usize, f64)| near < *distance && *distance <= BESIDE * reach;
+            move |(_, distance): &(usize, f64)| near < *distance && *distance <= UPON * reach;
         nodes.iter().map(|&node| (node, distance(node))).filter(is_beside)
     };
     (0..side.count()).flat_map(of_face).min_by(|a, b| a.1.total_cmp(&b.1))

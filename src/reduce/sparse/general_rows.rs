@@ -71,15 +71,14 @@ pub(super) fn general_rows(
         .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
 }
 
-/// Coefficients this much larger or smaller than those of displacements, which are 1 at most, are of another unit.
-const OTHER_UNIT: f64 = 1e4;
-
 /// The unit of each degree of freedom's coefficients: the largest of them where it is that of an angle, whose coefficients are
 /// arms. Small weights of a node in all rows are no unit of their own.
 fn units(rows: &Rows, count: usize, dependents: &Dependents) -> Vec<f64> {
+    // Coefficients of displacements are 1 at most; those this much larger or smaller are of another unit.
+    let other = 1e4;
     let mut units = dependents.largest_coefficients(count);
-    units.iter_mut().filter(|unit| **unit > 1.0 / OTHER_UNIT).for_each(|unit| *unit = 1.0);
-    let of_rows = rows.equations.iter().flatten().filter(|(_, a)| a.abs() > OTHER_UNIT);
+    units.iter_mut().filter(|unit| **unit > 1.0 / other).for_each(|unit| *unit = 1.0);
+    let of_rows = rows.equations.iter().flatten().filter(|(_, a)| a.abs() > other);
     of_rows.for_each(|&(k, a)| units[k] = units[k].max(a.abs()));
     units
 }

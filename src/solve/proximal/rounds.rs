@@ -38,19 +38,16 @@ pub const COMPLIANCE: f64 = 1e-4;
 /// Least and largest `e`. The least leaves six digits of the stiffness with springs.
 pub const RANGE: [f64; 2] = [1e-10, 1e-1];
 
-/// By which `e` is changed.
-const FACTOR: f64 = 0.1;
-
 /// The next `e`, softer up to `most` or less compliant.
 pub fn changed(compliance: f64, softer: bool, most: f64) -> f64 {
-    let by = if softer { 1.0 / FACTOR } else { FACTOR };
+    let by = if softer { 1.0 / SLOW } else { SLOW };
     (by * compliance).clamp(RANGE[0], most)
 }
 
 /// Part of the error before a round that is enough for the round.
 const ROUGH: f64 = 1e-3;
 
-/// Part of the error that is left where rounds are slow, so that less compliant springs are tried.
+/// Part of the error that is left where rounds are slow, so that springs are tried that are less compliant by as much.
 const SLOW: f64 = 0.1;
 
 /// So many rounds that do not halve the least error get nowhere: the pattern that is left has hardly any flexibility, or
