@@ -124,9 +124,14 @@ impl ContactPairs<'_> {
     /// Marks what rows by degree of freedom name, as the unknowns of a rigid body: with those marked before it may have no
     /// stiffness of its own. Of a node's row that stiffness is missing.
     pub(super) fn without_own_stiffness(&self, mut marked: Vec<bool>) -> Vec<bool> {
-        let of_rows = self.masters.iter().filter(|_| self.vectors.is_some());
-        of_rows
-            .for_each(|dof| marked.iter_mut().skip(*dof).take(1).for_each(|marked| *marked = true));
+        if self.vectors.is_some() {
+            for &dof in self.masters {
+                // Dependents may have numbers beyond the matrix.
+                if let Some(marked) = marked.get_mut(dof) {
+                    *marked = true;
+                }
+            }
+        }
         marked
     }
 
