@@ -84,7 +84,7 @@ impl Face<'_> {
     pub(super) fn integrals(&self) -> Values {
         let mut integrals = [0.0; MOST_NODES];
         let corners = &self.kind.places()[..self.kind.corners()];
-        quadrature::points(corners, AREA_POINTS).for_each(|(at, weight)| {
+        quadrature::points(corners, &mut Vec::new(), AREA_POINTS).for_each(|(at, weight)| {
             let area = weight * self.outward(at).norm() * self.around(at);
             let values = self.kind.values(at);
             integrals.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);

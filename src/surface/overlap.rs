@@ -96,6 +96,8 @@ pub(super) struct Overlaps {
     window: Vec<Point>,
     /// A master's outline where a curved slave is straight.
     mapped: Vec<Point>,
+    /// The part of a common part that has no points yet.
+    rest: Vec<Point>,
 }
 
 /// A part of a face whose local coordinates were not found.
@@ -119,8 +121,9 @@ impl<'a> SlaveFace<'a> {
         let flat = plane.flatten(face);
         let around = flat.is_curved().then(|| flat.around(AROUND));
         let (of_corners, bending) = (flat.corners.distortion(), flat.bending());
-        let are_bent_more = of_corners > bending && of_corners < FOLDED;
-        let (straight, bending) = match around.is_none() || are_bent_more {
+        // Local coordinates of a triangle have no right angle of their own, by which its mirror image is cut likewise.
+        let are_straight = face.kind.is_triangle() || of_corners > bending;
+        let (straight, bending) = match around.is_none() || are_straight && of_corners < FOLDED {
             true => (flat.corners, bending),
             false => (Bilinear::LOCAL, flat.distortion()),
         };
@@ -150,7 +153,7 @@ impl<'a> SlaveFace<'a> {
         found: &mut Overlaps,
     ) -> Result<Part, NotFound> {
         let seen = self.plane.project(master);
-        let Overlaps { points, clipper, near, window, mapped } = found;
+        let Overlaps { points, clipper, near, window, mapped, rest } = found;
         outline(&seen, window);
         let common = match &self.around {
             None => clipper.common_part(window, &self.outline),
@@ -166,7 +169,7 @@ impl<'a> SlaveFace<'a> {
         }
         let before = points.len();
         let share = area / self.area;
-        let part = Part { share, ..self.add_points(&Flat::new(seen), common, points)? };
+        let part = Part { share, ..self.add_points(&Flat::new(seen), (common, rest), points)? };
         if !wanted(part.distance) {
             points.truncate(before);
             return Ok(Part::default());
@@ -235,17 +238,18 @@ impl<'a> SlaveFace<'a> {
         Some(of_distortion.max(of_warp))
     }
 
-    /// Adds the points of a common part, and returns its distances along the normal.
+    /// Adds the points of a common part, in memory for the rest of it, and returns its distances along the normal.
     fn add_points(
         &self,
         master: &Flat<'_>,
-        common: &[Point],
+        (common, rest): (&[Point], &mut Vec<Point>),
         points: &mut Vec<Meeting>,
     ) -> Result<Part, NotFound> {
         let (mut distance, mut whole) = (0.0, 0.0);
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let in_plane = self.around.is_none();
-        quadrature::points(common, self.points_along(master)).try_for_each(|(p, part)| {
+        let count = self.points_along(master);
+        quadrature::points(common, rest, count).try_for_each(|(p, part)| {
             let slave = self.straight.local(p).ok_or(NotFound)?;
             let [x, along, across] = self.flat.at(slave);
             let normal = along.cross(&across);

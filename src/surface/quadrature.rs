@@ -1,5 +1,5 @@
-//! Rules of integration: Gauss and Legendre's on intervals, and on polygons by quadrilaterals from a corner, which take
-//! half the points that triangles would. Areas have signs, so that polygons need not be convex.
+//! Rules of integration: Gauss and Legendre's on intervals, and on polygons by quadrilaterals, which take half the points
+//! that triangles would. Areas have signs, so that polygons need not be convex.
 
 use std::sync::LazyLock;
 
@@ -52,18 +52,65 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
 }
 
 /// Points of a polygon, or of an interval, with their areas: `n` along each direction of a part. They are exact for
-/// polynomials of degree `2 n - 1` on an interval and `2 n - 2` on triangles.
-pub(super) fn points(polygon: &[Point], n: usize) -> impl Iterator<Item = (Point, f64)> {
+/// polynomials of degree `2 n - 1` on an interval and `2 n - 2` on triangles. A polygon that is turned, or a mirror image,
+/// has the points turned or mirrored, whichever corner its list begins with: a half model has those of the whole.
+/// `rest` is memory for what is left of the polygon.
+pub(super) fn points<'r>(
+    polygon: &[Point],
+    rest: &'r mut Vec<Point>,
+    n: usize,
+) -> impl Iterator<Item = (Point, f64)> + 'r {
     let rule = on_interval(n);
-    let last = polygon.len() - 1;
-    let length = polygon[1][0] - polygon[0][0];
-    let along = move |(s, share): &RulePoint| ([polygon[0][0] + s * length, 0.0], share * length);
-    let of_interval = if last == 1 { rule } else { &[] }.iter().map(along);
-    // Two corners of a part are one if it is a triangle.
-    let part =
-        move |k: usize| [last, k, k + 1, (k + 2).min(last - 1)].map(|corner| polygon[corner]);
-    let of_parts = (0..last - 1).step_by(2).flat_map(move |k| in_quadrilateral(part(k), rule));
-    of_interval.chain(of_parts)
+    rest.clear();
+    rest.extend(polygon);
+    let ends = (polygon.len() == 2).then(|| [polygon[0][0], polygon[1][0]]);
+    let of_interval = ends.into_iter().flat_map(move |[from, to]| {
+        let length = to - from;
+        rule.iter().map(move |(s, share)| ([from + s * length, 0.0], share * length))
+    });
+    let parts = std::iter::from_fn(move || cut_off(rest));
+    of_interval.chain(parts.flat_map(move |part| in_quadrilateral(part, rule)))
+}
+
+/// Cuts a part off a polygon: of an odd number of corners a triangle, otherwise a quadrilateral, along the shortest
+/// line; the last part leaves nothing.
+fn cut_off(polygon: &mut Vec<Point>) -> Option<[Point; 4]> {
+    let count = polygon.len();
+    let of_part = if count % 2 == 1 { 3 } else { 4 };
+    if count < of_part {
+        return None;
+    }
+    if count > of_part {
+        let line = |k: usize| square(polygon[k], polygon[(k + of_part - 1) % count]);
+        let shortest = (0..count).min_by(|k, l| line(*k).total_cmp(&line(*l)));
+        polygon.rotate_left(shortest.unwrap_or_default());
+    }
+    let part = match of_part {
+        3 => triangle([polygon[0], polygon[1], polygon[2]]),
+        _ => [polygon[0], polygon[1], polygon[2], polygon[3]],
+    };
+    // Both ends of the line stay, if there is more.
+    let cut = if count > of_part { 1..of_part - 1 } else { 0..count };
+    polygon.drain(cut);
+    Some(part)
+}
+
+/// A triangle as a quadrilateral of which two corners are one: the corner that faces the side which differs most from the
+/// other two.
+fn triangle(corners: [Point; 3]) -> [Point; 4] {
+    let mut by_side = [0, 1, 2].map(|k| {
+        let [a, b] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
+        (square(a, b), [a, b, corners[k], corners[k]])
+    });
+    by_side.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let [short, middle, long] = by_side;
+    if long.0 - middle.0 > middle.0 - short.0 { long.1 } else { short.1 }
+}
+
+/// The square of the distance of two points.
+fn square(p: Point, q: Point) -> f64 {
+    let [x, y] = [p[0] - q[0], p[1] - q[1]];
+    x * x + y * y
 }
 
 /// Points of a quadrilateral with their areas.

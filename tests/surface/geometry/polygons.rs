@@ -39,7 +39,7 @@ fn powers_are_integrated() {
         for i in 0..2 * n - 1 {
             for j in 0..2 * n - 1 - i {
                 let power = |([s, t], w): (Point, f64)| w * s.powi(i as i32) * t.powi(j as i32);
-                let sum: f64 = points(&triangle, n).map(power).sum();
+                let sum: f64 = points(&triangle, &mut Vec::new(), n).map(power).sum();
                 let exact = factorial(i) * factorial(j) / factorial(i + j + 2);
                 assert!((sum - exact).abs() < 2e-15, "{n}, {i}, {j}");
             }
@@ -53,7 +53,8 @@ fn powers_are_integrated() {
 fn moments_of_polygons_that_are_not_convex() {
     let l = [[1.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]];
     for (i, j) in (0..=4).flat_map(|i| (0..=4 - i).map(move |j| (i, j))) {
-        let sum: f64 = points(&l, 3).map(|([x, y], area)| area * x.powi(i) * y.powi(j)).sum();
+        let sum: f64 =
+            points(&l, &mut Vec::new(), 3).map(|([x, y], area)| area * x.powi(i) * y.powi(j)).sum();
         let power = |from: f64, k: i32| (2.0_f64.powi(k) - from.powi(k)) / f64::from(k);
         let exact = power(0.0, i + 1) * power(0.0, j + 1) - power(1.0, i + 1) * power(1.0, j + 1);
         // Some fifty terms of the size of the sum.
