@@ -262,7 +262,6 @@ impl Model {
             law: case.law,
             reference_slip: slip.as_deref(),
         })?;
-        let problem = problem.grown(self.reduction.growth());
         match self.reduction.is_condensed_by_host() {
             true => to(&problem.condensed_by_host()),
             false => to(&problem),
@@ -287,8 +286,8 @@ impl Model {
         let lengths = case.gap.iter().chain(case.reference_slip.unwrap_or(&[])).chain(&offset);
         let length = lengths.filter(|x| x.is_finite()).fold(0.0_f64, |most, x| most.max(x.abs()));
         let of_rigid = Some(norm_inf(&load) / length).filter(|unit| unit.is_normal());
-        let rest = (self.reduction.growth(), of_rigid.unwrap_or(1.0));
-        let relation = DependentRows::new(dependence, stiffness, &offset, rest);
+        let of_rigid = of_rigid.unwrap_or(1.0);
+        let relation = DependentRows::new(dependence, stiffness, &offset, of_rigid);
         let (gap, slip) = (case.gap, slip.as_deref());
         let problem = ContactProblem::with_relation(relation, self.dim, gap, case.law, slip)?;
         to(&problem)

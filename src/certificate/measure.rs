@@ -157,7 +157,7 @@ pub(super) fn measure_pair<R: Relation>(
     (residual, inner): (&[f64], &[f64]),
 ) -> Certificate {
     let relation = contact.problem().relation();
-    let load = relation.size_of_load();
+    let load = norm(relation.load());
     // The branches of the law and `max` drop NaN, which sums in twice the precision make of an overflow.
     let scale = match raw.iter().all(|force| force.is_finite()) {
         true => load.max(relation.size_of_force(&raw)),
@@ -212,7 +212,7 @@ pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
 /// [`eta`], on a problem whose laws are worked out.
 pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
     let size = natural_sum(contact.each(d, raw)).root();
-    ratio(size, contact.problem().relation().size_of_load().max(norm(raw)))
+    ratio(size, norm(contact.problem().relation().load()).max(norm(raw)))
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.

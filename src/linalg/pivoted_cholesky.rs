@@ -13,6 +13,7 @@ use super::watched::{BLOCK, GoesOn, lower_triangle};
 /// Rank-revealing Cholesky factor of a positive semi-definite matrix `A` with a diagonal of size one, or
 /// less in rows that little resists: `A[p, p] = L Lᵀ` on the independent rows `p`; the other rows depend on
 /// them.
+#[derive(Debug)]
 pub struct PivotedCholesky {
     lower: Columns,
     /// Independent rows, in the order of the factor.

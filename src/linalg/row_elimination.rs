@@ -3,7 +3,8 @@
 //!
 //! Equations with an unknown of their own come first: they change no other one. The rest is eliminated
 //! in the order of what is left of their coefficients, and the short ones first among equals: what an equation
-//! with little left hands on is enlarged rounding. An equation of which less than [`AGREES`] is left follows from the others.
+//! with little left hands on is enlarged rounding. An equation of which too little is left follows from the others and from the
+//! unknowns that are left in it; below [`AGREES`] these are the rounding of the host's numbers, and none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +15,7 @@ pub type Terms = Vec<(usize, f64)>;
 
 /// An unknown of its own gives an equation only if its coefficient is at least this part of the largest:
 /// smaller ones enlarge rounding more than they spare work.
-const LEAST_PIVOT: f64 = 0.1;
+pub const LEAST_PIVOT: f64 = 0.1;
 
 /// An unknown in terms of others: `u = sum of unknowns + sum of right sides`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,17 +30,17 @@ pub struct Expression {
 pub struct Solved {
     /// The unknowns that equations give, in terms of the others.
     pub given: Vec<(usize, Expression)>,
-    /// For each equation `None` if it is independent; otherwise its right side, in terms of unknowns that
-    /// cannot be chosen and of right sides of independent equations.
+    /// For each equation `None` if it is independent; otherwise its right side, in terms of unknowns that no equation gives
+    /// and of right sides of independent equations.
     pub dependent: Vec<Option<Expression>>,
 }
 
-/// Solves `equations` for unknowns that may be chosen. Coefficients of each unknown are compared beside its `unit`: those of
+/// Solves `equations` for unknowns that may be chosen, each divided by `least` of its coefficients at least. Coefficients of each unknown are compared beside its `unit`: those of
 /// angles are arms, in the host's unit of length.
-pub fn solve(equations: &[Terms], units: &[f64], may_choose: &[bool]) -> Solved {
+pub fn solve(equations: &[Terms], units: &[f64], may_choose: &[bool], least: f64) -> Solved {
     let in_units = |equation: &Terms| equation.iter().map(|&(k, a)| (k, a / units[k])).collect();
     let equations: Vec<Terms> = equations.iter().map(in_units).collect();
-    let mut state = Elimination::new(&equations, units.len(), may_choose);
+    let mut state = Elimination::new(&equations, may_choose, least);
     state.take_singletons();
     state.eliminate();
     let mut solved = state.solved();
@@ -57,6 +58,8 @@ pub fn solve(equations: &[Terms], units: &[f64], may_choose: &[bool]) -> Solved 
 struct Elimination<'c> {
     count: usize,
     may_choose: &'c [bool],
+    /// An equation gives no unknown whose coefficient is at most this part of its largest one.
+    least: f64,
     /// Each equation as a sum that is zero: unknowns, then right sides from `count` on; ascending.
     sums: Vec<Terms>,
     /// Largest coefficient that each equation ever had.
@@ -69,7 +72,8 @@ struct Elimination<'c> {
 }
 
 impl<'c> Elimination<'c> {
-    fn new(equations: &[Terms], count: usize, may_choose: &'c [bool]) -> Self {
+    fn new(equations: &[Terms], may_choose: &'c [bool], least: f64) -> Self {
+        let count = may_choose.len();
         let mut having = vec![Vec::new(); count];
         let mut sums = Vec::with_capacity(equations.len());
         for (i, equation) in equations.iter().enumerate() {
@@ -82,7 +86,8 @@ impl<'c> Elimination<'c> {
         let largest_unknown = |sum: &Terms| largest(&sum[..sum.len() - 1].to_vec());
         let scale = sums.iter().map(largest_unknown).collect();
         let is_open = vec![true; sums.len()];
-        Elimination { count, may_choose, sums, scale, is_open, having, order: Vec::new() }
+        let order = Vec::new();
+        Elimination { count, may_choose, least, sums, scale, is_open, having, order }
     }
 
     /// Unknowns of an equation that may be chosen.
@@ -100,8 +105,7 @@ impl<'c> Elimination<'c> {
         let mut counts: Vec<usize> = self.having.iter().map(Vec::len).collect();
         let mut waiting: Vec<usize> = (0..self.sums.len()).rev().collect();
         while let Some(i) = waiting.pop() {
-            let rounding = AGREES * self.scale[i];
-            let least = rounding.max(LEAST_PIVOT * self.largest_choice(i));
+            let least = (self.least * self.scale[i]).max(LEAST_PIVOT * self.largest_choice(i));
             let own = self.choices(i).filter(|(k, a)| counts[*k] == 1 && a.abs() >= least);
             let best = own.max_by(|(k, a), (l, b)| a.abs().total_cmp(&b.abs()).then(l.cmp(k)));
             let Some((unknown, _)) = best.filter(|_| self.is_open[i]) else { continue };
@@ -137,6 +141,8 @@ impl<'c> Elimination<'c> {
                 let keeps = |k: &usize| *k >= self.count || !self.may_choose[*k];
                 let sum = self.sums[i].iter().copied().filter(|(k, _)| keeps(k)).collect();
                 self.sums[i] = sum;
+            }
+            if largest <= self.least * self.scale[i] {
                 continue;
             }
             let Some((unknown, pivot)) = self.choices(i).find(|(_, a)| a.abs() == largest) else {
@@ -191,24 +197,15 @@ impl<'c> Elimination<'c> {
             let sum = &self.sums[i];
             let own = |&&(k, _): &&(usize, f64)| k == unknown;
             let pivot = sum.iter().find(own).map_or(1.0, |(_, a)| *a);
-            let mut terms = Terms::new();
-            for &(k, a) in sum.iter().filter(|(k, _)| *k != unknown) {
-                let share = -a / pivot;
-                match found.get(&k) {
-                    Some(expression) => {
-                        terms.extend(expression.iter().map(|(l, b)| (*l, share * b)))
-                    }
-                    None => terms.push((k, share)),
-                }
-            }
-            let terms = gathered(terms);
+            let others = sum.iter().filter(|(k, _)| *k != unknown);
+            let terms = replaced(others.map(|(k, a)| (*k, -a / pivot)), &found);
             given.push((unknown, self.split(&terms)));
             found.insert(unknown, terms);
         }
         let of_dependent = |(i, sum): (usize, Option<Terms>)| {
             let own = self.count + i;
-            let terms: Terms = sum?.into_iter().filter(|(k, _)| *k != own).collect();
-            Some(self.split(&terms))
+            let terms = sum?.into_iter().filter(|(k, _)| *k != own);
+            Some(self.split(&replaced(terms, &found)))
         };
         let dependent = dependent.into_iter().enumerate().map(of_dependent).collect();
         Solved { given, dependent }
@@ -220,6 +217,18 @@ impl<'c> Elimination<'c> {
         let right_sides = right_sides.map(|(k, a)| (k - self.count, *a)).collect();
         Expression { unknowns, right_sides }
     }
+}
+
+/// Terms in which the unknowns that are found are replaced.
+fn replaced(terms: impl Iterator<Item = (usize, f64)>, found: &BTreeMap<usize, Terms>) -> Terms {
+    let mut sum = Terms::new();
+    for (k, a) in terms {
+        match found.get(&k) {
+            Some(expression) => sum.extend(expression.iter().map(|(l, b)| (*l, a * b))),
+            None => sum.push((k, a)),
+        }
+    }
+    gathered(sum)
 }
 
 /// Ascending, one term for each number; a sum that has cancelled but for rounding is none.

@@ -110,12 +110,6 @@ impl<'a> ContactProblem<'a> {
         self
     }
 
-    /// Tells the problem by how much its rows have grown, each at least 1; empty: none has.
-    pub(crate) fn grown(mut self, growth: &'a [f64]) -> Self {
-        self.relation.growth = growth;
-        self
-    }
-
     /// Makes the problem one of several with this matrix. It uses the factors that earlier problems have left, and
     /// leaves its own.
     pub(crate) fn remembering(mut self, remembered: Option<&'a Remembered>) -> Self {

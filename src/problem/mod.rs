@@ -2,8 +2,10 @@
 
 mod arguments;
 mod bounded_lcp;
+mod by_equilibrium;
 mod contact;
 mod contact_data;
+mod dependence;
 mod dependent_rows;
 mod flexibility;
 mod flexibility_form;
@@ -26,9 +28,10 @@ pub(crate) use arguments::{
     Named, OF_MATRIX, check_finite, check_finite_matrix, check_gaps, checked_dim, dense, unknowns,
 };
 pub(crate) use bounded_lcp::BoundedLcp;
+pub(crate) use by_equilibrium::OfLeastEnergy;
 pub use contact::ContactProblem;
 pub use contact_data::ContactData;
-pub use dependent_rows::Dependence;
+pub use dependence::Dependence;
 pub(crate) use dependent_rows::{DependentRows, NEARLY_DEPENDENT};
 pub use flexibility::{Flexibility, FlexibilityData, FlexibilityProblem};
 pub use flexibility_form::FlexibilityForm;

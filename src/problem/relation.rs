@@ -11,7 +11,7 @@
 
 use super::remembered::Remembered;
 use crate::linalg::matrix::{Matrix, Residual};
-use crate::linalg::vector::{norm, norm_of};
+use crate::linalg::vector::norm;
 
 /// A linear relation between `d` and `F`, from the host's data alone. Components are ordered pair by
 /// pair, `D` for each.
@@ -28,11 +28,6 @@ pub trait Relation {
 
     /// The loads, in the unit of force: what drives the problem, and the size of forces.
     fn load(&self) -> &[f64];
-
-    /// The size of the loads beside which forces are measured: their norm, each load divided by the growth of its row.
-    fn size_of_load(&self) -> f64 {
-        norm(self.load())
-    }
 
     /// The contact force that `d + low` determines, with [`Self::magnitude`] of `|d|`; `None` if it determines none. `low`
     /// is empty, or what rounding to doubles has left out of `d`.
@@ -54,17 +49,6 @@ pub trait Relation {
     }
 }
 
-/// The norm of loads, each divided by the growth of its row, 1 if `growth` is empty.
-///
-/// A row that nearly follows from others is solved for what little is left of it. The coefficients grow by that, and with
-/// them its load, beside which no force of the host would count; the forces of the pairs stay those of the host.
-pub(crate) fn size_of_grown(load: &[f64], growth: &[f64]) -> f64 {
-    match growth.is_empty() {
-        true => norm(load),
-        false => norm_of(load.iter().zip(growth).map(|(load, growth)| load / growth)),
-    }
-}
-
 /// A relation in which some forces may move nothing: they balance each other.
 pub(crate) trait Redundant: Relation {
     /// Displacements to which forces add what they cause: `p . d = p . offset` for all forces `p` that balance
@@ -82,8 +66,6 @@ pub struct Stiffness<'a> {
     pub(super) matrix: Matrix<'a>,
     pub(super) load: &'a [f64],
     pub(super) symmetric: bool,
-    /// The growth of each row; empty: none has grown.
-    pub(super) growth: &'a [f64],
     /// Components of a pair.
     pub(super) dim: usize,
     /// Largest diagonal entry.
@@ -110,7 +92,6 @@ impl<'a> Stiffness<'a> {
             matrix,
             load,
             symmetric: true,
-            growth: &[],
             dim,
             largest: matrix.largest_diagonal(),
             rounding: f64::EPSILON * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
@@ -154,10 +135,6 @@ impl Relation for Stiffness<'_> {
 
     fn load(&self) -> &[f64] {
         self.load
-    }
-
-    fn size_of_load(&self) -> f64 {
-        size_of_grown(self.load, self.growth)
     }
 
     /// `K (d + low) - f`, in twice the precision and rounded once.

@@ -10,7 +10,7 @@
 //! `A` is a sparse matrix, or, without inner unknowns, an operator of the host: `A = K_rel`. A solver asks for
 //! products, and for solutions with some components of `d` held, or for those of an approximate inverse.
 
-use super::relation::{Relation, size_of_grown};
+use super::relation::Relation;
 use crate::error::Error;
 use crate::linalg::ball::UNIT;
 use crate::linalg::vector::{norm, sizes};
@@ -57,11 +57,6 @@ const NEIGHBOURS: f64 = 8.0;
 pub trait StiffnessOperator {
     /// Number of inner unknowns.
     fn inner(&self) -> usize;
-
-    /// The growth of the row of each component of `d`, at least 1; empty: none has grown.
-    fn growth(&self) -> &[f64] {
-        &[]
-    }
 
     /// The unit of force per length of each unknown, positive: of the size of the diagonal of `A`.
     fn units(&self) -> &[f64];
@@ -155,7 +150,6 @@ pub struct MatrixFree<'a> {
     pub(crate) at_zero: &'a [f64],
     /// The rounding of the sums that give the loads.
     rounding: f64,
-    size_of_load: f64,
 }
 
 impl<'a> MatrixFree<'a> {
@@ -173,8 +167,7 @@ impl<'a> MatrixFree<'a> {
             _ => (0..load.len()).step_by(dim).map(|n| bodies.coupling(n + 1, n + 2)).collect(),
         };
         let rounding = UNIT * norm(&bodies.magnitude(&sizes(at_zero)));
-        let size_of_load = size_of_grown(load, bodies.growth());
-        MatrixFree { units, couplings, dim, load, at_zero, rounding, size_of_load }
+        MatrixFree { units, couplings, dim, load, at_zero, rounding }
     }
 }
 
@@ -190,10 +183,6 @@ impl Relation for MatrixFree<'_> {
 
     fn load(&self) -> &[f64] {
         self.load
-    }
-
-    fn size_of_load(&self) -> f64 {
-        self.size_of_load
     }
 
     fn residual(&self, d: &[f64], _: &[f64]) -> Vec<f64> {
@@ -219,9 +208,7 @@ mod tests {
     fn a_relation_that_is_not_formed_certifies_nothing() {
         let (units, couplings) = (vec![2.0, 3.0, 3.0], vec![0.5]);
         let (load, at_zero) = (&[1.0, 0.0, 0.0], &[0.0; 3]);
-        let (rounding, size_of_load) = (0.0, 1.0);
-        let matrix_free =
-            MatrixFree { units, couplings, dim: 3, load, at_zero, rounding, size_of_load };
+        let matrix_free = MatrixFree { units, couplings, dim: 3, load, at_zero, rounding: 0.0 };
         let d = [0.1, 0.2, 0.3];
         assert!(matrix_free.force(&d, &[]).is_none());
         assert_eq!(matrix_free.residual(&d, &d), [f64::INFINITY; 3]);

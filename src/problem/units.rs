@@ -124,9 +124,9 @@ impl ChangesUnits for Stiffness<'_> {
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
         let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.force.all(self.load)?);
         let matrix = Matrix::new(self.size(), &matrix, self.size().max(1));
-        let Stiffness { symmetric, growth, rounding, .. } = *self;
+        let Stiffness { symmetric, rounding, .. } = *self;
         let scaled = Stiffness::new(matrix, &load, self.dim);
-        Some(work(Stiffness { symmetric, growth, rounding, ..scaled }))
+        Some(work(Stiffness { symmetric, rounding, ..scaled }))
     }
 }
 
@@ -157,8 +157,8 @@ impl ChangesUnits for DependentRows<'_> {
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
         let matrix = dense(&self.stiffness, units.stiffness())?;
         let (load, offset) = (units.force.all(self.load)?, units.length.all(self.offset())?);
-        let rest = (self.growth, exactly(self.of_rigid, units.stiffness())?);
-        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, rest)))
+        let of_rigid = exactly(self.of_rigid, units.stiffness())?;
+        Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, of_rigid)))
     }
 }
 

@@ -62,12 +62,6 @@ pub trait Reduction: Send + Sync {
         None
     }
 
-    /// By how much the row of each variable of [`Self::stiffness`] or pair of [`Self::bodies`] has grown where it was solved
-    /// for a degree of freedom, at least 1; empty: none has.
-    fn growth(&self) -> &[f64] {
-        &[]
-    }
-
     /// Returns `true` if the host has condensed the stiffness, so that its rounding is not known from its entries.
     fn is_condensed_by_host(&self) -> bool {
         false

@@ -2,7 +2,7 @@
 //! of freedom, and what it makes of a matrix and of loads.
 //!
 //! The unknowns `x` are the free degrees of freedom that no row gives, then the relative displacements `d` (of rows
-//! that depend on each other, those of independent ones); `p` are the values of the fixed degrees of freedom.
+//! that depend on each other, those of independent ones and the degrees of freedom that others name); `p` are the values of the fixed degrees of freedom.
 //! Degrees of freedom that follow from others by equations of the host are neither.
 //! `W = [T P]` is one sparse matrix, so that `Wᵀ K W` has all that is needed: `Tᵀ K T`, and `Pᵀ K T` for the loads of the fixed values.
 //!
@@ -14,11 +14,9 @@ use super::supports::FixedComponent;
 use crate::linalg::congruence::congruence;
 use crate::linalg::row_elimination::{Expression, Terms};
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, column, from_columns, from_entries, product_without_rounding, times,
-    transpose_times,
+    Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
 };
 use crate::linalg::sparse_schur::{FactorProgress, Failure};
-use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
 use crate::linalg::vector::norm_inf;
 use crate::reduce::equations::Dependents;
 use crate::reduce::frame::Frame;
@@ -38,23 +36,28 @@ pub(super) struct ChangeOfVariables {
 
 impl ChangeOfVariables {
     /// The change of variables where rows give the degrees of freedom `given` in so many `kept` variables, which
-    /// `of_right_sides` tells; `places` are the places in `fixed` of the host's degrees of freedom. With springs on
-    /// components that are fixed.
+    /// `of_right_sides` tells and of which `hosts` are the last ones; `places` are the places in `fixed` of the host's degrees of freedom.
+    /// With springs on components that are fixed.
     pub(super) fn new(
         (places, dependents): (&[Option<usize>], &Dependents),
         (given, kept): (&[(usize, Expression)], usize),
         of_right_sides: impl Fn(&Terms) -> Terms,
-        fixed_components: &[FixedComponent],
+        (hosts, fixed_components): (&[usize], &[FixedComponent]),
     ) -> Result<Self, OutOfMemory> {
         let (host_size, springs) = (places.len(), fixed_components.len());
         let mut is_free: Vec<bool> = places.iter().map(Option::is_none).collect();
         let of_equations = dependents.of_matrix(host_size).map(|(dof, _)| dof);
-        given.iter().map(|(dof, _)| *dof).chain(of_equations).for_each(|dof| is_free[dof] = false);
+        let of_rows = given.iter().map(|(dof, _)| *dof);
+        of_rows
+            .chain(of_equations)
+            .chain(hosts.iter().copied())
+            .for_each(|dof| is_free[dof] = false);
         let free: Vec<usize> = (0..host_size).filter(|&dof| is_free[dof]).collect();
         let unknowns = free.len() + kept;
         let mut column: Vec<Option<usize>> =
             places.iter().map(|place| place.map(|k| unknowns + k)).collect();
         free.iter().enumerate().for_each(|(k, &dof)| column[dof] = Some(k));
+        (unknowns - hosts.len()..).zip(hosts).for_each(|(k, &dof)| column[dof] = Some(k));
         let same = (0..host_size).filter_map(|dof| Some((dof, column[dof]?, 1.0)));
         let mut entries: Vec<(usize, usize, f64)> = same.collect();
         for (dof, Expression { unknowns, right_sides }) in given {
@@ -74,17 +77,6 @@ impl ChangeOfVariables {
                 product_without_rounding(&with_dependents(rows, host_size, dependents)?, &matrix)?;
         }
         Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
-    }
-
-    /// The growth of each kept variable: its largest coefficient in degrees of freedom of the host, beside one whose square
-    /// makes a pivot suspicious; empty if none has grown. Rows of meshes that do not match lead to smaller ones, along planes of
-    /// symmetry and between surfaces that are each other's slaves, and their loads do not grow as the coefficients do.
-    pub(super) fn growth(&self) -> Vec<f64> {
-        let largest = |j| norm_inf(column(&self.matrix, j).1);
-        let kept = self.free.len()..self.unknowns;
-        let growth: Vec<f64> =
-            kept.map(|j| (largest(j) * SUSPICIOUS_PIVOT.sqrt()).max(1.0)).collect();
-        if growth.iter().all(|growth| *growth == 1.0) { Vec::new() } else { growth }
     }
 
     /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.

@@ -27,8 +27,6 @@ pub(super) struct FullSpace {
     inner: usize,
     dim: usize,
     units: Vec<f64>,
-    /// That of the rows of the pairs.
-    pub(super) growth: Vec<f64>,
     cholesky: Plan,
     /// Bytes of a factor, a second matrix with components held, and some vectors of all unknowns.
     pub(super) factor_bytes: u64,
@@ -62,9 +60,8 @@ impl FullSpace {
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
-        let (growth, kept, last) = (Vec::new(), Mutex::default(), LastCase::default());
-        let mut space =
-            FullSpace { matrix, inner, dim, units, growth, cholesky, factor_bytes, kept, last };
+        let (kept, last) = (Mutex::default(), LastCase::default());
+        let mut space = FullSpace { matrix, inner, dim, units, cholesky, factor_bytes, kept, last };
         let values = space
             .cholesky
             .definite(space.restricted(&held_set, 0.0), &mut |share| asked.goes_on(share))?;
@@ -188,10 +185,6 @@ impl Drop for InUse<'_> {
 impl StiffnessOperator for InUse<'_> {
     fn inner(&self) -> usize {
         self.space.inner
-    }
-
-    fn growth(&self) -> &[f64] {
-        &self.space.growth
     }
 
     fn units(&self) -> &[f64] {

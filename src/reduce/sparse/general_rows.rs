@@ -4,17 +4,22 @@
 //! Each axis of a pair is an equation `sum a_k u_k = delta` in degrees of freedom of the host. Independent
 //! equations give a degree of freedom each, and with it the change of variables `u = T x + P p`; a slave
 //! of its own gives its equation. What an equation says that follows
-//! from others is a combination of their right sides and of fixed values.
+//! from others is a combination of their right sides and of fixed values. What an equation says that nearly follows from others is
+//! such a combination too, with a little of other degrees of freedom, `delta_i = sum c_j delta_j + sum a_k u_k`: divided by the
+//! `a_k` it would give one of them, and enlarge rounding in the stiffness by the square.
 //!
 //! The variables kept are the relative displacements `d` of a pair whose equations are all independent, or that
 //! supports hold along directions of its frame, and the independent `delta` of other pairs. If there are others,
-//! rows depend on each other.
+//! rows depend on each other, and the `u_k` above are kept too.
+
+use std::collections::BTreeSet;
 
 use super::change_of_variables::ChangeOfVariables;
 use super::supports::FixedComponent;
 use crate::error::Error;
-use crate::linalg::row_elimination::{Expression, Solved, Terms, solve};
+use crate::linalg::row_elimination::{Expression, LEAST_PIVOT, Solved, Terms, solve};
 use crate::linalg::sparse_matrix::OutOfMemory;
+use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
 use crate::linalg::vector3::{self, Vector3, unit, without};
 use crate::problem::Dependence;
 use crate::reduce::equations::Dependents;
@@ -46,6 +51,8 @@ struct KeptRows<'r> {
     /// The place of each degree of freedom among the fixed ones.
     fixed: &'r [Option<usize>],
     places: Vec<RowPlace>,
+    /// The degrees of freedom that equations name which nearly follow from others, ascending; they are the last ones that are kept.
+    hosts: Vec<usize>,
     kept: usize,
 }
 
@@ -60,15 +67,24 @@ pub(super) fn general_rows(
     (places, dependents): (&[Option<usize>], &Dependents),
 ) -> Result<GeneralRows, Error> {
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
-    let solved = solve(&rows.equations, &units(rows, places.len(), dependents), &may_choose);
-    let mut supports = Vec::new();
-    for (pair, frame) in frames.iter_mut().enumerate() {
-        let pair = (pair, rows.dim);
-        supports.extend(held_components((&solved, places), pair, (frame, may_turn)));
+    let units = units(rows, places.len(), dependents);
+    // Where no row depends on others, each has its own stiffness as long as that keeps half of its digits.
+    let mut least = SUSPICIOUS_PIVOT.sqrt();
+    loop {
+        let solved = solve(&rows.equations, &units, &may_choose, least);
+        let mut supports = Vec::new();
+        for (pair, frame) in frames.iter_mut().enumerate() {
+            let pair = (pair, rows.dim);
+            supports.extend(held_components((&solved, places), pair, (frame, may_turn)));
+        }
+        let kept = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
+        if kept.are_independent() || least == LEAST_PIVOT {
+            return kept.assembled(&solved, supports, dependents).map_err(|_| {
+                Error::OutOfMemory("the contact rows, solved for degrees of freedom")
+            });
+        }
+        least = LEAST_PIVOT;
     }
-    let rows = KeptRows::new(rows.dim, frames, places, &solved, &mut supports);
-    rows.assembled(&solved, supports, dependents)
-        .map_err(|_| Error::OutOfMemory("the contact rows, solved for degrees of freedom"))
 }
 
 /// The unit of each degree of freedom's coefficients: the largest of them where it is that of an angle, whose coefficients are
@@ -89,7 +105,7 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
 }
 
 /// The components of a pair that supports hold along directions, with its frame turned exactly along them: none if none
-/// are, or if one of its equations follows from those of other pairs. A pair whose nodes are fixed along every axis
+/// are, or if one of its equations follows from those of other pairs or has other degrees of freedom left. A pair whose nodes are fixed along every axis
 /// rests, as where a surface ends at a wall.
 fn held_components(
     (solved, places): (&Solved, &[Option<usize>]),
@@ -101,7 +117,10 @@ fn held_components(
     let of_axes: Vec<(usize, &Expression)> = (0..dim).filter_map(of_axis).collect();
     let own = dim * pair..dim * (pair + 1);
     let mut sides = of_axes.iter().flat_map(|(_, expression)| &expression.right_sides);
-    if !sides.all(|(equation, _)| own.contains(equation)) {
+    let mut unknowns = of_axes.iter().flat_map(|(_, expression)| &expression.unknowns);
+    let is_held = sides.all(|(equation, _)| own.contains(equation))
+        && unknowns.all(|(dof, _)| places[*dof].is_some());
+    if !is_held {
         return Vec::new();
     }
     let along = frame.along(&held_directions(&of_axes, dim), may_turn).unwrap_or_default();
@@ -169,7 +188,22 @@ impl<'r> KeptRows<'r> {
                 support.variable = first + support.component % dim;
             }
         }
-        KeptRows { dim, frames, held, fixed, places, kept }
+        let named = solved.dependent.iter().flatten().flat_map(|expression| &expression.unknowns);
+        let named = named.map(|(dof, _)| *dof).filter(|dof| fixed[*dof].is_none());
+        let hosts: Vec<usize> = named.collect::<BTreeSet<usize>>().into_iter().collect();
+        kept += hosts.len();
+        KeptRows { dim, frames, held, fixed, places, hosts, kept }
+    }
+
+    /// `true` if no row depends on others.
+    fn are_independent(&self) -> bool {
+        self.places.iter().all(|place| matches!(place, RowPlace::Frame(_)))
+    }
+
+    /// The place of a degree of freedom that is kept.
+    fn host(&self, dof: usize) -> Option<usize> {
+        let first = self.kept - self.hosts.len();
+        self.hosts.binary_search(&dof).ok().map(|k| first + k)
     }
 
     /// The right side of an independent equation in variables.
@@ -201,9 +235,8 @@ impl<'r> KeptRows<'r> {
     ) -> Result<GeneralRows, OutOfMemory> {
         let sides = |terms: &Terms| self.right_sides(terms);
         let (places, given) = ((self.fixed, dependents), (&solved.given[..], self.kept));
-        let variables = ChangeOfVariables::new(places, given, sides, &supports)?;
-        let depends = self.places.iter().any(|place| matches!(place, RowPlace::Axes(_)));
-        let dependent = if depends { Some(self.dependence(solved)?) } else { None };
+        let variables = ChangeOfVariables::new(places, given, sides, (&self.hosts, &supports))?;
+        let dependent = if self.are_independent() { None } else { Some(self.dependence(solved)?) };
         Ok(GeneralRows { variables, supports, dependent })
     }
 
@@ -234,9 +267,13 @@ impl<'r> KeptRows<'r> {
                         (None, Some(expression)) => {
                             let sides = self.right_sides(&expression.right_sides);
                             to_relative.extend(sides.into_iter().map(entry));
-                            let values = expression.unknowns.iter();
-                            let values = values.filter_map(|&(dof, a)| Some((self.fixed[dof]?, a)));
-                            of_fixed.extend(values.map(entry));
+                            for &(dof, a) in &expression.unknowns {
+                                let (entries, place) = match self.fixed[dof] {
+                                    Some(place) => (&mut of_fixed, Some(place)),
+                                    None => (&mut to_relative, self.host(dof)),
+                                };
+                                entries.extend(place.map(|place| entry((place, a))));
+                            }
                         }
                         (None, None) => {}
                     }
@@ -247,6 +284,7 @@ impl<'r> KeptRows<'r> {
         let matrices = [to_relative, from_relative];
         let shape = (count, self.kept);
         let fixed = self.fixed.iter().flatten().count();
-        Dependence::new(self.dim, shape, matrices, (fixed, of_fixed), dependent_pairs)
+        let rest = (self.hosts.len(), dependent_pairs);
+        Dependence::new(self.dim, shape, matrices, (fixed, of_fixed), rest)
     }
 }

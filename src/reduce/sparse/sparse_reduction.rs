@@ -13,7 +13,7 @@ use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, combination, norm_inf};
 use crate::linalg::watched::unended;
-use crate::problem::{Dependence, GoesOn, StiffnessOperator};
+use crate::problem::{Dependence, GoesOn, OfLeastEnergy, StiffnessOperator};
 use crate::reduce::equations::Dependents;
 use crate::reduce::memory::memory;
 use crate::reduce::{ContactPairs, HostLoad, Reduction, SolvedCase, motion};
@@ -31,7 +31,6 @@ pub struct SparseReduction {
     supports: Vec<FixedComponent>,
     fixed_components: Vec<usize>,
     dependent: Option<Dependence>,
-    growth: Vec<f64>,
     engine: Engine,
 }
 
@@ -93,10 +92,6 @@ impl SparseReduction {
         if let (Engine::Condensed(schur), None) = (&mut engine, &dependent) {
             schur.level(&fixed_components, pairs.dim);
         }
-        let growth = variables.growth();
-        if let Engine::FullSpace(space) = &mut engine {
-            space.growth.clone_from(&growth);
-        }
         Ok(SparseReduction {
             fixed_count: fixed.len(),
             variables,
@@ -106,7 +101,6 @@ impl SparseReduction {
             fixed_components,
             supports,
             dependent,
-            growth,
             engine,
         })
     }
@@ -171,13 +165,22 @@ impl Reduction for SparseReduction {
     fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
         let (mut loads, mut variables) = (Vec::new(), Vec::new());
         let nothing = vec![0.0; self.host_size()];
+        let of_rows = match (&self.engine, self.dependence()) {
+            (Engine::Condensed(schur), Some(dependence)) => {
+                Some((schur, OfLeastEnergy::new(dependence, &schur.schur)))
+            }
+            _ => None,
+        };
         for case in cases {
-            let load = case.load.unwrap_or(&nothing);
-            loads.extend(self.transformed_load(load, case.prescribed));
-            match self.dependence() {
-                Some(dependence) => variables.extend(dependence.of_relative(case.d)),
+            let load = self.transformed_load(case.load.unwrap_or(&nothing), case.prescribed);
+            match &of_rows {
+                Some((schur, of_rows)) => {
+                    let condensed = || unended(|goes_on| schur.condense(&load, goes_on));
+                    variables.extend(of_rows.variables(case.d, condensed, case.prescribed));
+                }
                 None => variables.extend_from_slice(case.d),
             }
+            loads.extend(load);
         }
         let x = match &self.engine {
             Engine::Condensed(schur) => {
@@ -198,10 +201,6 @@ impl Reduction for SparseReduction {
 
     fn dependence(&self) -> Option<&Dependence> {
         self.dependent.as_ref()
-    }
-
-    fn growth(&self) -> &[f64] {
-        &self.growth
     }
 
     fn check_prescribed(&self, values: &[f64]) -> Result<(), Error> {

@@ -36,7 +36,7 @@ impl<'a> Equations<'a> {
         tolerance: f64,
     ) -> Self {
         let relation = contact.problem().relation();
-        let unit = relation.size_of_load().max(relation.size_of_force(&[]));
+        let unit = norm(relation.load()).max(relation.size_of_force(&[]));
         let mut root: Vec<f64> = bodies.units().iter().map(|unit| unit.sqrt()).collect();
         root.truncate(bodies.inner());
         root.extend(scale_roots(contact.pairs(), contact.dim()));

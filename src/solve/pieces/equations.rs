@@ -8,7 +8,7 @@ use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, scale_roots}
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::{norm, norm_of};
 use crate::linalg::watched::written;
-use crate::problem::{BoundedLcp, Relation, Remembered};
+use crate::problem::{BoundedLcp, Remembered};
 
 /// The equations of some pairs: of a whole problem, or of what is left of one when others are
 /// eliminated.
@@ -43,8 +43,7 @@ impl<'a> Equations<'a> {
         let problem = contact.problem();
         let (load, laws) = (Cow::Borrowed(problem.load()), Cow::Borrowed(contact.pairs()));
         let matrix = problem.stiffness();
-        let equations =
-            Self::new(contact.dim(), matrix, load, laws, problem.relation().size_of_load());
+        let equations = Self::new(contact.dim(), matrix, load, laws, norm(problem.load()));
         let remembered = problem.remembered();
         Equations { symmetric: problem.is_symmetric(), remembered, ..equations }
     }

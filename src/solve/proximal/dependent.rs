@@ -52,7 +52,6 @@ pub fn solve(
             free_motions: free_motions.as_deref(),
             before: variables.clone(),
             variables,
-            least: 0.0,
             right: Vec::new(),
         };
         let force = vec![0.0; relation.size()];
@@ -70,9 +69,8 @@ struct Bodies<'p> {
     changed: Option<SparseSchur>,
     free_motions: Option<&'p [Vec<f64>]>,
     variables: Vec<f64>,
-    /// Those before the last round, and the least `e` that rounds are left to.
+    /// Those before the last round.
     before: Vec<f64>,
-    least: f64,
     /// The load of the round on the variables, and on the displacements beyond the springs.
     right: Vec<f64>,
 }
@@ -113,14 +111,13 @@ impl InSeries for Bodies<'_> {
     }
 
     /// The springs before are released first. Where there is no time for others the first ones come back. Softer ones begin where
-    /// the round did that less compliant ones have failed in, and stay.
+    /// the round did that less compliant ones have failed in.
     fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
         let compliance = changed(self.compliance, softer, COMPLIANCE);
         if softer {
             self.variables.clone_from(&self.before);
-            self.least = compliance;
         }
-        if compliance == self.compliance || compliance < self.least {
+        if compliance == self.compliance {
             return;
         }
         (self.compliance, self.changed) = (COMPLIANCE, None);
@@ -187,8 +184,11 @@ fn condensed(
     }
 }
 
-/// The variables of the displacements `start`.
+/// The variables of the displacements `start`, without forces.
 fn begun(relation: &DependentRows<'_>, start: Option<&[f64]>) -> Vec<f64> {
-    let dependence = relation.dependence;
-    start.map_or_else(|| vec![0.0; dependence.variables()], |start| dependence.of_relative(start))
+    let force = vec![0.0; relation.size()];
+    start.map_or_else(
+        || vec![0.0; relation.dependence.variables()],
+        |start| relation.variables(start, &force),
+    )
 }

@@ -8,9 +8,10 @@
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
 //! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
-//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. With the largest, the
-//! default method has all its means: a round that it leaves without a solution, and no nearer to one, ends the rounds, and
-//! its sentence is that of the problem.
+//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. It is lowered again
+//! once the error is a tenth of that. From then on, with the largest, and without friction, the default method has all its
+//! means: a round with the largest that it leaves without a solution, and no nearer to one, ends the rounds, and its sentence is that
+//! of the problem.
 //!
 //! Where forces grow with the least compliant springs too there is no solution near: they balance each other and wedge the bodies,
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
@@ -140,6 +141,8 @@ pub fn rounds<R: Redundant>(
         growth: Growth::default(),
         best: None,
         least: f64::INFINITY,
+        failed: f64::INFINITY,
+        lowered: false,
         idle: 0,
         solved: 0,
     };
@@ -167,6 +170,10 @@ struct Rounds<'p, 's, R: Redundant> {
     /// `eta` of the round before, and the least of those that halved the one before.
     last: f64,
     least: f64,
+    /// That before the last round that less compliant springs have failed in.
+    failed: f64,
+    /// True if the springs of this round are less compliant than those before.
+    lowered: bool,
     /// Rounds since `least` was halved.
     idle: usize,
     /// Rounds since the first solution.
@@ -193,7 +200,10 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         if failed && eta >= if softest { self.last } else { SLOW * self.last } {
             match softest {
                 true => _ = self.keep(found, false, false),
-                false => self.springs.change(true, monitor),
+                false => {
+                    self.failed = self.last;
+                    self.springs.change(true, monitor);
+                }
             }
             return Ok(softest);
         }
@@ -207,10 +217,16 @@ impl<R: Redundant> Rounds<'_, '_, R> {
             Status::Solved => self.changes[1] > SLOW * self.changes[0] && !self.growth.is_steady(),
             _ => eta > SLOW * self.last,
         };
-        let settled = settles(self.changes, self.settings.tolerance * norm_inf(&self.force));
-        if !failed && is_slow && !settled {
+        // Of a solution less compliant springs make the change less, until it is rounding of the gaps.
+        let is_rounding =
+            self.lowered && found.status == Status::Solved && self.changes[1] >= self.changes[0];
+        let allowed = self.settings.tolerance * norm_inf(&self.force);
+        let settled = is_rounding || settles(self.changes, allowed);
+        let before = self.springs.compliance();
+        if !failed && is_slow && !settled && eta <= SLOW * self.failed {
             self.springs.change(false, monitor);
         }
+        self.lowered = self.springs.compliance() < before;
         self.last = eta;
         let ends = self.keep(found, halves, settled);
         Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
@@ -223,10 +239,12 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE)
     }
 
-    /// Solves the problem with springs. Hard ones are left to softer springs, as far as there are any.
+    /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
     fn round(&mut self, tolerance: f64, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+        let (has_failed, softest) = (self.failed.is_finite(), self.springs.are_softest());
+        let frictionless = self.contact.is_frictionless();
         let method = match self.settings.method {
-            Method::Auto if !self.springs.are_softest() => Method::Newton,
+            Method::Auto if !(has_failed || softest || frictionless) => Method::Newton,
             method => method,
         };
         let settings = Settings { tolerance, method, ..self.settings.clone() };
