@@ -55,10 +55,9 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         matches!(found.ending, Ending::Done | Ending::Stopped(_)).then_some(found)
     });
     if found.is_none() {
-        let y = swept(&whole, start, monitor);
-        if !is_finite(&y) {
+        let Some(y) = swept(&whole, start, monitor) else {
             return Candidate::without_displacements(contact, OVERFLOW);
-        }
+        };
         let alone = search.on(&whole, None, y, monitor);
         found = Some(Ended { systems: spent + alone.systems, ..alone });
     }
@@ -76,9 +75,9 @@ fn begun<'w>(
     let reduced = ReducedProblem::by_elimination(whole, &before.elimination)?;
     let start: Option<Vec<f64>> = start.map(|start| reduced.restrict(start));
     let equations = reduced.equations();
-    let own = swept(&equations, start.as_deref(), monitor);
+    let own = swept(&equations, start.as_deref(), monitor)?;
     let needed = closed_with_margin(&equations.laws, &own).len();
-    let fits = is_finite(&own) && own.len() as f64 <= TOO_MANY * needed as f64;
+    let fits = own.len() as f64 <= TOO_MANY * needed as f64;
     drop(equations);
     let mut y = vec![[0.0; 3]; whole.laws.len()];
     reduced.kept().zip(own).for_each(|(pair, own)| y[pair] = own);
@@ -197,8 +196,4 @@ impl Search<'_, '_> {
         kept.iter().for_each(|&pair| held[pair] = None);
         ReducedProblem::new(whole, &held, monitor)
     }
-}
-
-fn is_finite(y: &[Vector]) -> bool {
-    y.iter().flatten().all(|y| y.is_finite())
 }

@@ -89,10 +89,8 @@ pub fn solve_in_plane(
         }
     }
     let start = again.as_ref().map(Candidate::d).or(call.start);
-    let y = swept(equations, start, monitor);
-    let is_finite = y.iter().flatten().all(|y| y.is_finite());
-    is_finite
-        .then(|| dense.descend(Point::new(equations, y), (tolerance, 1), monitor).into_candidate())
+    let y = swept(equations, start, monitor)?;
+    Some(dense.descend(Point::new(equations, y), (tolerance, 1), monitor).into_candidate())
 }
 
 /// Solves the equations in space by steps with the system that the problem before with the same matrix has left, whose

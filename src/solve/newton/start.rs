@@ -40,12 +40,12 @@ const OVER_RELAXATION: f64 = 1.5;
 const WORTHWHILE: f64 = 0.7;
 
 /// The coordinates after some sweeps from the displacements `start`, fewer if the time is up. If that is `None`, all pairs
-/// are closed without slip in the plane, and all displacements zero in space.
+/// are closed without slip in the plane, and all displacements zero in space. `None`: they lead beyond the largest number.
 pub(super) fn swept(
     whole: &Equations<'_>,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
-) -> Vec<Vector> {
+) -> Option<Vec<Vector>> {
     let mut d = match start {
         Some(start) => start.to_vec(),
         None if whole.dim == 2 => references(&whole.laws, 2).collect(),
@@ -89,5 +89,6 @@ pub(super) fn swept(
             break;
         }
     }
-    y
+    let is_finite = y.iter().flatten().all(|y| y.is_finite());
+    is_finite.then_some(y)
 }
