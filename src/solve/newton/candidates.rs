@@ -181,8 +181,7 @@ impl Search<'_, '_> {
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<ReducedProblem<'w>>, Stop> {
         // In the plane one factor serves many systems: less is saved.
-        let closed = || whole.pieces(y).iter().filter(|piece| piece.closed).count();
-        if whole.dim == 2 && !many_are_open(closed(), y.len()) {
+        if whole.dim == 2 && !many_are_open(&whole.pieces(y)) {
             return Ok(None);
         }
         let needed = closed_with_margin(&whole.laws, y);

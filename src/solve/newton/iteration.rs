@@ -291,7 +291,7 @@ impl NormalMap for Dense<'_> {
         {
             return Err(Ending::Cycle);
         }
-        if self.leaves_open && many_are_open(closed(point), point.y.len()) {
+        if self.leaves_open && many_are_open(&point.pieces) {
             self.left = Some(point.clone());
             return Err(OPEN);
         }

@@ -1,6 +1,6 @@
 //! The pairs that may touch.
 
-use crate::law::{PairLaw, Vector};
+use crate::law::{PairLaw, Piece, Vector};
 
 /// Pairs beside those that are closed: this part of them, and two.
 const MARGIN: f64 = 0.15;
@@ -10,10 +10,10 @@ fn with_margin(closed: usize) -> usize {
     closed + (MARGIN * closed as f64).ceil() as usize + 2
 }
 
-/// True if the candidates of so many closed pairs are at most twice the others, without which systems cost a third.
-pub fn many_are_open(closed: usize, all: usize) -> bool {
-    let candidates = with_margin(closed);
-    candidates <= 2 * all.saturating_sub(candidates)
+/// True if the candidates of the closed pairs are at most twice the others, without which systems cost a third.
+pub fn many_are_open(pieces: &[Piece]) -> bool {
+    let candidates = with_margin(pieces.iter().filter(|piece| piece.closed).count());
+    candidates <= 2 * pieces.len().saturating_sub(candidates)
 }
 
 /// The pairs that are closed at coordinates, those next to closing, and those that carry forces when they are open.
