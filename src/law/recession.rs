@@ -16,16 +16,6 @@
 use super::{Contact, PairLaw, Vector, length};
 use crate::problem::Relation;
 
-/// Edges of the cone of all forces.
-const ALL_FORCES: [Vector; 6] = [
-    [1.0, 0.0, 0.0],
-    [-1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, -1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.0, 0.0, -1.0],
-];
-
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Recession {
@@ -82,7 +72,10 @@ impl PairLaw {
         let mu = self.bound.slope;
         match self.dim {
             dim if self.tied => {
-                ALL_FORCES.into_iter().filter(|f| dim == 3 || f[2] == 0.0).collect()
+                let along = |c: usize, force: f64| {
+                    std::array::from_fn(|k| if k == c { force } else { 0.0 })
+                };
+                (0..dim).flat_map(|c| [along(c, 1.0), along(c, -1.0)]).collect()
             }
             _ if !self.has_obstacle() => Vec::new(),
             _ if mu == 0.0 => vec![[-1.0, 0.0, 0.0]],
