@@ -3,9 +3,10 @@
 //! With `dd` the displacements of a unit of an unknown ([`Slopes`]), the equation of a normal component is
 //! `(K dd)_n`, and that of a tangential one `(K dd)_t - drag (K dd)_n + turn x`.
 
-use std::borrow::{Borrow, Cow};
+use std::borrow::Cow;
 use std::ops::Range;
 
+use super::pair_law::Vector;
 use super::slopes::{Linearised, Slopes};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::vectorised;
@@ -24,12 +25,23 @@ pub struct Unknown {
     pub column: f64,
 }
 
-/// The coefficients of a system of pairs `P`.
-pub struct Assembly<'s, P> {
+impl Unknown {
+    /// Displacements of its pair, which has these slopes, by a unit of it.
+    pub fn motion(&self, Slopes { motion, .. }: &Slopes) -> Vector {
+        match self.component {
+            0 => [self.column, 0.0, 0.0],
+            c => [0.0, motion[0][c - 1] * self.column, motion[1][c - 1] * self.column],
+        }
+    }
+}
+
+/// The coefficients of a system.
+pub struct Assembly<'s> {
     dim: usize,
     matrix: Matrix<'s>,
     unknowns: &'s [Unknown],
-    pairs: &'s [P],
+    /// Those of each pair.
+    slopes: Vec<&'s Slopes>,
     /// The scale and the drag of each equation: it is `scale (v[at] - drag v[normal])` of `v = K dd`, but for the turn of its
     /// pair.
     scales: Vec<f64>,
@@ -78,18 +90,20 @@ impl<'i> Image<'i> {
     }
 }
 
-impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
-    /// The coefficients for the `unknowns`, in the order of the components, of pairs of `dim` components; `matrix`
-    /// is `K`.
-    pub fn new(dim: usize, matrix: Matrix<'s>, unknowns: &'s [Unknown], pairs: &'s [P]) -> Self {
-        let drag = |unknown: &Unknown| match unknown.component {
-            0 => 0.0,
-            c => pairs[unknown.pair].borrow().drag[c - 1],
-        };
+impl<'s> Assembly<'s> {
+    /// The coefficients for the `unknowns`, in the order of the components, of pairs of `dim` components with these
+    /// slopes; `matrix` is `K`.
+    pub fn new(
+        dim: usize,
+        matrix: Matrix<'s>,
+        unknowns: &'s [Unknown],
+        slopes: impl Iterator<Item = &'s Slopes>,
+    ) -> Self {
+        let slopes: Vec<&Slopes> = slopes.collect();
         let scales = unknowns.iter().map(|unknown| unknown.row).collect();
-        let drags = unknowns.iter().map(drag).collect();
+        let drags = unknowns.iter().map(|own| slopes[own.pair].drag_of(own.component)).collect();
         let mut assembly =
-            Assembly { dim, matrix, unknowns, pairs, scales, drags, runs: Vec::new() };
+            Assembly { dim, matrix, unknowns, slopes, scales, drags, runs: Vec::new() };
         assembly.find_runs();
         assembly
     }
@@ -134,15 +148,6 @@ impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
         }
     }
 
-    /// Displacements of its pair by a unit of an unknown.
-    pub fn motion_of(&self, unknown: &Unknown) -> [f64; 3] {
-        let motion = &self.pairs[unknown.pair].borrow().motion;
-        match unknown.component {
-            0 => [unknown.column, 0.0, 0.0],
-            c => [0.0, motion[0][c - 1] * unknown.column, motion[1][c - 1] * unknown.column],
-        }
-    }
-
     /// `K dd` for a unit of the unknown `j`, the components from `from` on: a column of `K` where one component moves,
     /// otherwise a sum of them.
     pub fn image(&self, j: usize, from: usize) -> Image<'s> {
@@ -167,7 +172,7 @@ impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
             sums.for_each(|(sum, entry)| *sum += s * part * entry);
         }
         let unknown = &self.unknowns[j];
-        let own = pairs[unknown.pair].scaled(&self.motion_of(unknown));
+        let own = pairs[unknown.pair].scaled(&unknown.motion(self.slopes[unknown.pair]));
         let components = image[self.dim * unknown.pair..].iter_mut().take(self.dim);
         components.zip(own).for_each(|(sum, own)| *sum += (1.0 - s) * own);
         Image::of(image)
@@ -175,8 +180,10 @@ impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
 
     /// The columns of `K` of the components that a unit of the unknown `j` moves, with the displacement of each.
     fn moved(&self, j: usize) -> impl Iterator<Item = (&'s [f64], f64)> {
-        let first = self.dim * self.unknowns[j].pair;
-        let parts = self.motion_of(&self.unknowns[j]).into_iter().take(self.dim).enumerate();
+        let unknown = &self.unknowns[j];
+        let first = self.dim * unknown.pair;
+        let parts = unknown.motion(self.slopes[unknown.pair]).into_iter();
+        let parts = parts.take(self.dim).enumerate();
         let moved = parts.filter(|(_, part)| *part != 0.0);
         moved.map(move |(c, part)| (self.matrix.column(first + c), part))
     }
@@ -194,7 +201,7 @@ impl<'s, P: Borrow<Slopes>> Assembly<'s, P> {
         );
         let unknown = &self.unknowns[j];
         let Some(own) = unknown.component.checked_sub(1) else { return };
-        let turn = &self.pairs[unknown.pair].borrow().turn;
+        let turn = &self.slopes[unknown.pair].turn;
         let near = first.max(j.saturating_sub(1))..self.unknowns.len().min(j + 2);
         for (entry, equation) in entries[near.clone()].iter_mut().zip(&self.unknowns[near]) {
             if equation.pair == unknown.pair && equation.component > 0 {

@@ -10,8 +10,6 @@
 //! because where the bound grows by a part and the slip stays, the trial force less `k` times the slip grows by that
 //! part along the friction. Nothing is divided by the slip. An open pair has the normal displacement as its unknown.
 
-use std::borrow::Borrow;
-
 use super::{Piece, Planar, Plane, Vector, ellipse};
 
 /// The derivatives of a pair that moves along its tangents.
@@ -30,6 +28,11 @@ impl Slopes {
     pub fn is_plain(&self) -> bool {
         self.drag == [0.0; 2] && self.turn == [[0.0; 2]; 2]
     }
+
+    /// How component `c` of the force follows the pressure.
+    pub fn drag_of(&self, c: usize) -> f64 {
+        if c == 0 { 0.0 } else { self.drag[c - 1] }
+    }
 }
 
 /// A pair on its piece, to first order.
@@ -43,12 +46,6 @@ pub struct Linearised {
     pub slopes: Slopes,
     /// `k` of the normal component, and of the tangential ones.
     scale: [f64; 2],
-}
-
-impl Borrow<Slopes> for Linearised {
-    fn borrow(&self) -> &Slopes {
-        &self.slopes
-    }
 }
 
 impl Linearised {

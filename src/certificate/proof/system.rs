@@ -105,21 +105,11 @@ impl<'c> System<'c> {
         }
     }
 
-    /// The coefficients of the scaled matrix.
-    fn assembly(&self) -> Assembly<'_, Slopes> {
-        let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
-        Assembly::new(dim, matrix, &self.unknowns, &self.slopes)
-    }
-
     /// Writes columns of the scaled matrix.
     pub fn columns(&self) -> impl Fn(usize, &mut [f64]) + Sync {
-        let assembly = self.assembly();
+        let (dim, matrix) = (self.contact.dim(), self.contact.problem().stiffness());
+        let assembly = Assembly::new(dim, matrix, &self.unknowns, self.slopes.iter());
         move |j, entries| assembly.coefficients(j, 0, &assembly.image(j, 0), entries)
-    }
-
-    /// Displacements of the pair by a unit of the scaled unknown.
-    pub fn motion_of(&self, unknown: &Unknown) -> [f64; 3] {
-        self.assembly().motion_of(unknown)
     }
 
     /// Refines the centre by residuals in twice the precision until steps fall no further, or `goes_on` says no.
@@ -148,7 +138,7 @@ impl<'c> System<'c> {
         let dim = self.contact.dim();
         let mut change = vec![0.0; centre.d.len()];
         for (unknown, step) in self.unknowns.iter().zip(step) {
-            let parts = self.motion_of(unknown);
+            let parts = unknown.motion(&self.slopes[unknown.pair]);
             let own = &mut change[dim * unknown.pair..dim * (unknown.pair + 1)];
             own.iter_mut().zip(parts).for_each(|(own, part)| *own -= part * step);
         }

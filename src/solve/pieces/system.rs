@@ -90,7 +90,8 @@ impl System {
                 false => held.push(i),
             }
         }
-        let assembly = Assembly::new(dim, equations.matrix, &unknowns, &pairs);
+        let slopes = pairs.iter().map(|pair| &pair.slopes);
+        let assembly = Assembly::new(dim, equations.matrix, &unknowns, slopes);
         let coefficients =
             Coefficients { equations, assembly, unknowns: &unknowns, pairs: &pairs, s, least };
         let (factor, border) = match border {
@@ -210,7 +211,7 @@ impl System {
                 let at = self.dim * unknown.pair;
                 let dragged = match unknown.component {
                     0 => 0.0,
-                    c => self.pairs[unknown.pair].slopes.drag[c - 1] * b[at],
+                    c => self.pairs[unknown.pair].slopes.drag_of(c) * b[at],
                 };
                 *side = (b[at + unknown.component] - dragged) * unknown.row;
             }
@@ -257,7 +258,7 @@ impl System {
 /// The coefficients from which a system is factorised.
 struct Coefficients<'s> {
     equations: &'s Equations<'s>,
-    assembly: Assembly<'s, Linearised>,
+    assembly: Assembly<'s>,
     unknowns: &'s [Unknown],
     pairs: &'s [Linearised],
     s: f64,
@@ -309,7 +310,7 @@ impl<'s> Coefficients<'s> {
             }
             for (entry, i) in entries.iter_mut().zip(unknowns) {
                 let (at, c) = (dim * i.pair, i.component);
-                let drag = if c == 0 { 0.0 } else { self.pairs[i.pair].slopes.drag[c - 1] };
+                let drag = self.pairs[i.pair].slopes.drag_of(c);
                 let rate = border.rate[at + c] - drag * border.rate[at];
                 *entry = column_scale * rate * i.row;
             }
