@@ -11,6 +11,14 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
+/// Adds steps to numbers in two parts.
+pub fn add_to_parts((high, low): (&mut [f64], &mut [f64]), steps: impl IntoIterator<Item = f64>) {
+    for ((high, low), step) in high.iter_mut().zip(low).zip(steps) {
+        let (sum, lost) = two_sum(*high, step);
+        (*high, *low) = two_sum(sum, lost + *low);
+    }
+}
+
 /// `a b` and its rounding error, exactly, by a fused multiplication and addition; to be called inside [`vectorised`], which
 /// makes that one instruction.
 ///

@@ -8,7 +8,7 @@ use crate::law::{Assembly, Contact, EnclosedPiece, Local, Slopes, Unknown};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector};
 use crate::linalg::definite::Definite;
-use crate::linalg::double_double::two_sum;
+use crate::linalg::double_double::add_to_parts;
 use crate::linalg::power_of_two::{exponent, times_power_of_two};
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
@@ -142,10 +142,7 @@ impl<'c> System<'c> {
             let own = &mut change[dim * unknown.pair..dim * (unknown.pair + 1)];
             own.iter_mut().zip(parts).for_each(|(own, part)| *own -= part * step);
         }
-        for ((d, low), change) in centre.d.iter_mut().zip(&mut centre.low).zip(change) {
-            let (sum, lost) = two_sum(*d, change);
-            (*d, *low) = two_sum(sum, lost + *low);
-        }
+        add_to_parts((&mut centre.d, &mut centre.low), change);
     }
 }
 

@@ -12,7 +12,7 @@ use super::descent::{AIM, PATIENCE, ROUNDING_OF_ETA};
 use super::iteration::CHORD;
 use crate::certificate::eta_of;
 use crate::law::{Contact, Linearised, Piece};
-use crate::linalg::double_double::two_sum;
+use crate::linalg::double_double::add_to_parts;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
 use crate::monitor::{Monitor, Stop};
@@ -113,10 +113,7 @@ fn refine(
         let Some((step, orientation)) = newton.step(&v, &force) else { break };
         best.orientation = orientation;
         steps.begin(eta, &step);
-        for ((d, low), step) in d.iter_mut().zip(&mut low).zip(&step) {
-            let (sum, lost) = two_sum(*d, *step);
-            (*d, *low) = two_sum(sum, lost + *low);
-        }
+        add_to_parts((&mut d, &mut low), step);
     }
     best.effort.factorisations += newton.factorisations;
     best

@@ -3,7 +3,7 @@
 use super::session::Session;
 use crate::error::Error;
 use crate::law::{Contact, Piece, Vector, natural_sum, scale_roots};
-use crate::linalg::double_double::two_sum;
+use crate::linalg::double_double::add_to_parts;
 use crate::linalg::vector::{norm, norm_of};
 use crate::monitor::Monitor;
 use crate::problem::{MatrixFree, Relation, SOLUTIONS, StiffnessOperator};
@@ -159,10 +159,7 @@ impl Displacements {
     pub fn moved(&self, part: f64, step: &[f64]) -> Self {
         let mut next = self.clone();
         let (inner, pairs) = next.x.split_at_mut(self.low.len());
-        for ((x, low), step) in inner.iter_mut().zip(&mut next.low).zip(step) {
-            let (sum, lost) = two_sum(*x, part * step);
-            (*x, *low) = two_sum(sum, lost + *low);
-        }
+        add_to_parts((inner, &mut next.low), step.iter().map(|step| part * step));
         let steps = &step[self.low.len()..];
         pairs.iter_mut().zip(steps).for_each(|(x, step)| *x += part * step);
         next
