@@ -41,7 +41,7 @@ pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate, monitor: 
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
     let mut newton = Newton::on(&equations, monitor);
-    let refined = refine(contact, candidate, aim, &mut newton);
+    let refined = refine((contact, &at_reference), candidate, aim, &mut newton);
     let new = refined.certificate(contact);
     if new.residual <= settings.tolerance && !new.runs_away() {
         *candidate = refined.ended(Ending::Done);
@@ -67,7 +67,7 @@ pub fn refine_fully(
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let mut newton = Newton::on(&equations, monitor);
-    let mut candidate = refine(contact, candidate, 0.0, &mut newton);
+    let mut candidate = refine((contact, &at_reference), candidate, 0.0, &mut newton);
     if newton.is_stopped {
         return None;
     }
@@ -79,12 +79,11 @@ pub fn refine_fully(
 
 /// Refines until `eta` is at most `aim`, falls no further, or the time is up.
 fn refine(
-    contact: &Contact<'_>,
+    (contact, at_reference): (&Contact<'_>, &Contact<'_>),
     candidate: &Candidate,
     aim: f64,
     newton: &mut Newton<'_, '_>,
 ) -> Candidate {
-    let at_reference = contact.at_its_reference();
     let (mut d, mut low) = (candidate.d().to_vec(), vec![0.0; candidate.d().len()]);
     let mut best = candidate.clone();
     let (mut least, mut in_vain) = (f64::INFINITY, 0);
@@ -96,7 +95,7 @@ fn refine(
         }
         let v = contact.beyond_reference(&d, &low);
         let force = contact.problem().force_of_parts(&d, &low);
-        let eta = eta_of(&at_reference, &v, &force);
+        let eta = eta_of(at_reference, &v, &force);
         if eta < least {
             (least, in_vain) = (eta, 0);
             steps.arrived((best.force(), &force), eta);
