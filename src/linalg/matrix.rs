@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::ball::UNIT;
 use super::simd::{AT_ONCE, add_columns, add_sizes, add_twice, vectorised};
 use super::tolerances::{CONDENSATION, FREE, UNRESISTED};
-use super::vector::{largest_of, norm};
+use super::vector::{largest_of, norm, opposite};
 use super::watched::BLOCK;
 use crate::workers::{pieces, reading};
 
@@ -161,7 +161,7 @@ impl<'a> Matrix<'a> {
 
     /// The product with `x` less `b`.
     pub fn product_less(&self, x: &[f64], b: &[f64]) -> Vec<f64> {
-        let mut left: Vec<f64> = b.iter().map(|b| -b).collect();
+        let mut left = opposite(b);
         self.add_product(x, &mut left);
         left
     }

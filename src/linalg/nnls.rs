@@ -1,7 +1,7 @@
 //! Non-negative least squares (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23).
 
 use super::least_squares::Columns;
-use super::vector::dot;
+use super::vector::{dot, opposite};
 
 /// Slopes above this part of the length of the target would still lower the distance: ten times the
 /// rounding of one sum, as the residual itself is a sum.
@@ -73,6 +73,5 @@ fn descend(
 /// directions: products of the columns with each other would lose half the digits of columns next to each other.
 fn shortest(target: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Option<Vec<f64>> {
     let basis = Columns::new(active.iter().map(|&j| columns[j].clone()), SLOPE);
-    let mut opposite: Vec<f64> = target.iter().map(|v| -v).collect();
-    basis.are_independent().then(|| basis.coefficients(basis.take_out(&mut opposite)))
+    basis.are_independent().then(|| basis.coefficients(basis.take_out(&mut opposite(target))))
 }

@@ -7,6 +7,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 use super::double_double::{two_product, two_sum};
 use super::simd::vectorised;
 use super::tolerances::ROUNDING;
+use super::vector::opposite;
 
 /// Compressed columns, rows ascending.
 pub type Csc = SparseColMat<usize, f64>;
@@ -138,8 +139,7 @@ pub fn symmetric_magnitude(lower: &Csc, x: &[f64]) -> Vec<f64> {
 /// `A (x + low) - b` of the symmetric matrix whose lower triangle is `lower`, in twice the precision and rounded
 /// once. `low` has the first entries, or all.
 pub fn symmetric_residual(lower: &Csc, (x, low): (&[f64], &[f64]), b: &[f64]) -> Vec<f64> {
-    let (mut sum, mut rest): (Vec<f64>, Vec<f64>) =
-        (b.iter().map(|b| -b).collect(), vec![0.0; b.len()]);
+    let (mut sum, mut rest) = (opposite(b), vec![0.0; b.len()]);
     let low_of = |j: usize| low.get(j).copied().unwrap_or(0.0);
     vectorised(
         #[inline(always)]

@@ -68,6 +68,11 @@ pub fn sizes(values: &[f64]) -> Vec<f64> {
     values.iter().map(|value| value.abs()).collect()
 }
 
+/// The values with their signs changed.
+pub fn opposite(values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| -value).collect()
+}
+
 /// Inner product.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

@@ -26,7 +26,7 @@ use crate::error::{Argument, Error};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::linalg::vector::{largest_of, norm, sizes};
+use crate::linalg::vector::{largest_of, norm, opposite, sizes};
 
 /// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
 /// caller's units; velocities and impulses may take their places. A dense matrix is given column-major, with the entries
@@ -144,8 +144,7 @@ impl<'a> Flexibility<'a> {
 
     /// `W F + q`, in twice the precision and rounded once.
     pub(crate) fn relative(&self, force: &[f64]) -> Vec<f64> {
-        let opposite: Vec<f64> = self.free.iter().map(|free| -free).collect();
-        self.form.times_less(force, &opposite)
+        self.form.times_less(force, &opposite(self.free))
     }
 }
 

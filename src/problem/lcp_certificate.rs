@@ -10,7 +10,7 @@ use crate::linalg::power_of_two::{
     OwnUnit, dot_in_own_unit, exponent, largest_exponent, times_power_of_two,
 };
 use crate::linalg::tolerances::{FEW_OPERATIONS, LEAST_WORK};
-use crate::linalg::vector::{first_not_finite, largest_of, norm, norm_of};
+use crate::linalg::vector::{first_not_finite, largest_of, norm, norm_of, opposite, sizes};
 
 /// The measures of one candidate `z + low`.
 #[derive(Clone, Debug)]
@@ -41,10 +41,8 @@ impl Lcp<'_> {
     /// underflow are taken once more, scaled.
     pub(crate) fn measure(&self, (z, low): (&[f64], &[f64]), magnitudes: &[f64]) -> LcpCertificate {
         let load = norm(self.q());
-        let opposite: Vec<f64> = self.q().iter().map(|q| -q).collect();
-        let sizes: Vec<f64> = z.iter().map(|z| z.abs()).collect();
-        let terms = self.matrix.magnitude(&sizes);
-        let w = self.matrix.residual(z, low, &opposite, &terms);
+        let terms = self.matrix.magnitude(&sizes(z));
+        let w = self.matrix.residual(z, low, &opposite(self.q()), &terms);
         let row = |i: usize| {
             let z = z[i] + low.get(i).unwrap_or(&0.0);
             Row { w: w[i], terms: terms[i], mz: magnitudes[i] * z }

@@ -13,7 +13,7 @@
 use super::relation::Relation;
 use crate::error::Error;
 use crate::linalg::ball::UNIT;
-use crate::linalg::vector::{norm, sizes};
+use crate::linalg::vector::{norm, opposite, sizes};
 pub use crate::linalg::watched::GoesOn;
 
 /// A symmetric matrix along the two tangents of a pair; in the plane its first entry alone counts.
@@ -79,7 +79,7 @@ pub trait StiffnessOperator {
     /// # Errors
     /// As [`Self::product`].
     fn residual(&self, x: &[f64], _low: &[f64], load: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut residual: Vec<f64> = load.iter().map(|f| -f).collect();
+        let mut residual = opposite(load);
         if x.iter().any(|x| *x != 0.0) {
             let product = self.product(x)?;
             residual.iter_mut().zip(product).for_each(|(sum, product)| *sum += product);

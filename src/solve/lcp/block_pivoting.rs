@@ -8,6 +8,7 @@
 //! components only, and a few sweeps from its solution tell nearly all pairs that open; sweeps follow
 //! each later solution too, as long as they help.
 
+use crate::linalg::vector::opposite;
 use std::cell::Cell;
 
 use super::past::{Exchanged, Past};
@@ -42,7 +43,6 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
         symmetric: true,
         remembered: problem.remembered(),
     };
-    let opposite = |values: &[f64]| -> Vec<f64> { values.iter().map(|value| -value).collect() };
     let start = call.start.map(opposite);
     let measured = Cell::new(None);
     let measure = |x: &[f64]| {

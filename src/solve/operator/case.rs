@@ -9,7 +9,7 @@ use super::{condensed, thresholds};
 use crate::certificate::{Certificate, is_spread_escape, measure_spread};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, gaps_within_reach, references};
-use crate::linalg::vector::normalise;
+use crate::linalg::vector::{normalise, opposite};
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
@@ -137,7 +137,7 @@ impl<'a> Loaded<'a> {
             Err(stopped) => (nothing, Some(stopped)),
         };
         let residual = bodies.residual(&at_zero.x, &at_zero.low, case.load)?;
-        let relative = residual[inner..].iter().map(|f| -f).collect();
+        let relative = opposite(&residual[inner..]);
         Ok(Loaded { case, at_zero, residual, relative, stopped })
     }
 

@@ -36,6 +36,7 @@ use crate::law::{Linearised, Plane, Vector, ellipse};
 use crate::linalg::gmres::gmres;
 use crate::linalg::least_squares::Columns;
 use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
+use crate::linalg::vector::opposite;
 use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
@@ -102,7 +103,7 @@ impl<'a> System<'a> {
         let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
         monitor.goes_on()?;
         if bodies.held().is_some() && bodies.operator.is_exact() {
-            let mut all: Vec<f64> = self.lack[..first].iter().map(|h| -h).collect();
+            let mut all = opposite(&self.lack[..first]);
             all.extend_from_slice(&right);
             sum = self.moved_by(bodies, &all, monitor)?;
             let rows = self.rows(&sum);
@@ -141,7 +142,7 @@ impl<'a> System<'a> {
     fn right(&self) -> Vec<f64> {
         let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
         let inside = &self.lack[self.first..self.equations.inner];
-        let mut all: Vec<f64> = inside.iter().map(|h| -h).collect();
+        let mut all = opposite(inside);
         all.resize(self.lack.len() - self.first, 0.0);
         let right = &mut all[inside.len()..];
         for (at, pair) in self.pairs.iter().enumerate() {

@@ -89,6 +89,7 @@ use super::linear_start::{ATTEMPTS, Attempt, ON_UNCERTAIN_PAIRS, Starts, with_gi
 use super::linear_walk::{LOST, Walk};
 use crate::counters::count;
 use crate::law::references;
+use crate::linalg::vector::opposite;
 use crate::monitor::Monitor;
 use crate::solve::newton::{from_pieces, solve_part};
 use crate::solve::pieces::Equations;
@@ -122,7 +123,7 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
     let equations = Equations::of(contact);
     // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
     let reference: Vec<f64> = references(contact.pairs(), 2).collect();
-    let load: Vec<f64> = equations.force(&reference).iter().map(|force| -force).collect();
+    let load = opposite(&equations.force(&reference));
     let mut starts = Starts::new(contact, &equations.root, equations.length(&load), start);
     let mut best = Candidate::without_displacements(contact, LOST);
     let mut effort = Effort::default();

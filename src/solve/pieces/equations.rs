@@ -6,7 +6,7 @@ use super::before::Before;
 use crate::law::Piece;
 use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, scale_roots};
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::{norm, norm_of};
+use crate::linalg::vector::{norm, norm_of, opposite};
 use crate::linalg::watched::written;
 use crate::problem::{BoundedLcp, Remembered};
 
@@ -141,7 +141,7 @@ impl<'a> Equations<'a> {
     /// law: the coordinates that tell `d`, too.
     pub fn before(&self, (pieces, y): (Vec<Piece>, &[Vector]), d: &[f64], force: &[f64]) -> Before {
         let (_, push) = self.values(&pieces, y);
-        let y = self.coordinates(d, &push.iter().map(|push| -push).collect::<Vec<f64>>());
+        let y = self.coordinates(d, &opposite(&push));
         let (d, _) = self.values(&pieces, &y);
         let product = force.iter().zip(&*self.load).map(|(force, f)| force + f).collect();
         Before { pieces, d, product, y }

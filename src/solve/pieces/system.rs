@@ -21,7 +21,7 @@ use super::held::{self, Held};
 use crate::law::{Assembly, Image, Linearised, Unknown, Vector, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::dot;
+use crate::linalg::vector::{dot, opposite};
 use crate::linalg::watched::{GoesOn, written};
 
 /// The border of a system: `border . (dy, ds) = wanted`.
@@ -127,7 +127,7 @@ impl System {
         lack: &[f64],
         wanted: f64,
     ) -> Option<(Vec<Vector>, f64)> {
-        let mut b: Vec<f64> = lack.iter().map(|lack| -lack).collect();
+        let mut b = opposite(lack);
         let mut x = self.right_sides(&b);
         if let Some(border) = &self.border {
             x.push((wanted - dot(&border.reactions, &b)) * border.row_scale);

@@ -7,7 +7,7 @@ use super::equations::{Equations, Step};
 use super::system::System;
 use crate::law::Linearised;
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::{first_not_finite, norm_inf};
+use crate::linalg::vector::{first_not_finite, norm_inf, opposite};
 use crate::linalg::watched::GoesOn;
 use crate::monitor::Monitor;
 use crate::problem::Remembered;
@@ -142,8 +142,4 @@ impl<'e> Systems<'e> {
     pub fn are_of_pieces(&self) -> bool {
         self.last.is_some() && self.equations.are_linear()
     }
-}
-
-fn opposite(values: &[f64]) -> Vec<f64> {
-    values.iter().map(|value| -value).collect()
 }
