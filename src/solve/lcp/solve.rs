@@ -82,12 +82,7 @@ pub fn solve_lcp(
             (solution.w, solution.z, solution.z_low) = (before.w, before.z, before.z_low);
             (solution.eta, solution.rounding) = (before.eta, before.rounding);
         }
-        let why = match ending {
-            Ending::Singular => Fallback::Singular,
-            Ending::Cycle => Fallback::Cycle,
-            _ => Fallback::Inaccurate,
-        };
-        solution.fallback = Some((Method::BlockPivoting, why));
+        solution.fallback = Some((Method::BlockPivoting, ending.fallback(0)));
         solution.factorisations = before.factorisations;
     }
     Ok(solution)

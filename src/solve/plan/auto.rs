@@ -34,7 +34,8 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
         if let Ending::RunsAway(motion) = &candidate.ending {
             tried.away = Some(motion.clone());
         }
-        let (why, stopped) = (fallback(&candidate), matches!(candidate.ending, Ending::Stopped(_)));
+        let why = candidate.ending.fallback(candidate.orientation);
+        let stopped = matches!(candidate.ending, Ending::Stopped(_));
         let is_solved = candidate.certificate(contact).holds(call.settings.tolerance);
         let unsolved = (!is_solved).then(|| candidate.clone());
         let mut solution = certified(call, row.method, candidate);
@@ -61,15 +62,6 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
     });
     tried.end(contact, &mut solution, monitor);
     Ok(solution)
-}
-
-fn fallback(candidate: &Candidate) -> Fallback {
-    match candidate.ending {
-        Ending::Cycle => Fallback::Cycle,
-        Ending::Singular => Fallback::Singular,
-        Ending::Done if candidate.orientation < 0 => Fallback::Unstable,
-        _ => Fallback::Inaccurate,
-    }
 }
 
 /// The results of earlier methods.

@@ -1,6 +1,6 @@
 //! How an algorithm ended: the one list for all of them, and their sentences.
 
-use super::solution::Status;
+use super::solution::{Fallback, Status};
 use crate::certificate::Certificate;
 use crate::error::{Error, number};
 use crate::monitor::Stop;
@@ -63,6 +63,16 @@ impl Ending {
         match self {
             Ending::Stopped(stop) => stop.status(settings, &wanted),
             other => (Status::Stalled, format!("{}; {wanted}", other.reason(certificate))),
+        }
+    }
+
+    /// Why another method is asked after this end, on pieces whose system has this orientation.
+    pub fn fallback(&self, orientation: i8) -> Fallback {
+        match self {
+            Ending::Cycle => Fallback::Cycle,
+            Ending::Singular => Fallback::Singular,
+            Ending::Done if orientation < 0 => Fallback::Unstable,
+            _ => Fallback::Inaccurate,
         }
     }
 
