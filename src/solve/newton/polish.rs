@@ -44,7 +44,8 @@ pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate, monitor: 
     let refined = refine((contact, &at_reference), candidate, aim, &mut newton);
     let new = refined.certificate(contact);
     if new.residual <= settings.tolerance && !new.runs_away() {
-        *candidate = refined.ended(Ending::Done);
+        *candidate = refined;
+        candidate.ending = Ending::Done;
     } else if newton.is_stopped && candidate.ending == Ending::Done {
         candidate.ending = Ending::Stopped(Stop::TimeLimit);
     }

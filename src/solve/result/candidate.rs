@@ -77,11 +77,6 @@ impl Candidate {
         Candidate { force, ..self }
     }
 
-    /// This candidate with another ending.
-    pub fn ended(self, ending: Ending) -> Self {
-        Candidate { ending, ..self }
-    }
-
     /// This candidate at the displacements `d + low`, which need `force`.
     pub fn moved_to(self, d: Vec<f64>, low: Vec<f64>, force: Vec<f64>) -> Self {
         Candidate { d, low, force, certificate: OnceCell::new(), ..self }
