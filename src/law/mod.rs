@@ -71,7 +71,7 @@ pub(crate) use enclosed_piece::{EnclosedPiece, Local};
 pub use levelled::LevelledTangents;
 pub use natural_map::Violation;
 pub(crate) use natural_map::natural_sum;
-pub use pair_law::{PairLaw, Vector};
+pub use pair_law::{PairLaw, Vector, by_pairs};
 pub use piece::{Boundary, Piece, Tangential};
 pub use planar_piece::{PieceExit, Planar};
 pub use reach::gaps_within_reach;

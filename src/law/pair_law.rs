@@ -6,6 +6,12 @@ use crate::linalg::ball::Ball;
 /// A vector of a pair: normal and up to two tangential components.
 pub type Vector = [f64; 3];
 
+/// The vectors of pairs of `dim` components from a vector of all components.
+pub fn by_pairs<T: Copy + Default>(dim: usize, values: &[T]) -> Vec<[T; 3]> {
+    let of_pair = |own: &[T]| std::array::from_fn(|c| own.get(c).copied().unwrap_or_default());
+    values.chunks_exact(dim).map(of_pair).collect()
+}
+
 /// The law of one pair with its numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct PairLaw {

@@ -1,6 +1,6 @@
 //! `K d - f`, enclosed.
 
-use crate::law::Contact;
+use crate::law::{Contact, by_pairs};
 use crate::linalg::ball::{Ball, BallVector, UNIT, product_up, sum_of_products_up, sum_up};
 use crate::problem::{ContactProblem, Relation};
 
@@ -30,14 +30,4 @@ pub fn enclosed_force(
     };
     let balls: Vec<Ball> = (0..d.len()).map(enclosed).collect();
     by_pairs(contact.dim(), &balls)
-}
-
-/// Components pair by pair.
-pub fn by_pairs(dim: usize, balls: &[Ball]) -> Vec<BallVector> {
-    let of_pair = |balls: &[Ball]| {
-        let mut vector = BallVector::default();
-        vector[..dim].copy_from_slice(balls);
-        vector
-    };
-    balls.chunks_exact(dim).map(of_pair).collect()
 }

@@ -3,8 +3,7 @@
 //! A row for each component that moves, with the force `F = K d - f` that equilibrium needs:
 //! `F_n - a` of an open pair, `F_t + g A h` of a slip. Rows and unknowns are scaled by powers of two, exactly.
 
-use super::forces::by_pairs;
-use crate::law::{Assembly, Contact, EnclosedPiece, Local, Slopes, Unknown};
+use crate::law::{Assembly, Contact, EnclosedPiece, Local, Slopes, Unknown, by_pairs};
 use crate::linalg::approximate_inverse::ApproximateInverse;
 use crate::linalg::ball::{Ball, BallVector};
 use crate::linalg::definite::Definite;

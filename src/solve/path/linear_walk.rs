@@ -1,9 +1,9 @@
 //! One way along the linear path, from piece to piece.
 
-use crate::law::{Linearised, Piece, PieceExit, Planar};
+use crate::law::{Linearised, Piece, PieceExit, Planar, by_pairs};
 use crate::linalg::vector::largest_of;
 use crate::monitor::Monitor;
-use crate::solve::pieces::{Equations, System, Updated, by_pairs};
+use crate::solve::pieces::{Equations, System, Updated};
 use crate::solve::result::Ending;
 
 /// A pivot below this part of one is taken for zero: the error of all that went through it would be as

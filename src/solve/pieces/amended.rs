@@ -4,10 +4,10 @@
 //! of all other components follow from the displacements, by one product with `K` for each right-hand side.
 
 use super::columns::Columns;
-use super::equations::{Equations, Step, by_pairs};
+use super::equations::{Equations, Step};
 use super::system::System;
 use super::term::{Term, terms};
-use crate::law::Linearised;
+use crate::law::{Linearised, by_pairs};
 use crate::linalg::dense::subtract_product;
 use crate::linalg::factor::Factor;
 use crate::linalg::simd::subtract_columns;

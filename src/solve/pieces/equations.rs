@@ -31,12 +31,6 @@ pub struct Equations<'a> {
     pub remembered: Option<&'a Remembered>,
 }
 
-/// The vectors of pairs of `dim` components from a vector of all components.
-pub fn by_pairs(dim: usize, values: &[f64]) -> Vec<Vector> {
-    let of_pair = |own: &[f64]| std::array::from_fn(|c| own.get(c).copied().unwrap_or(0.0));
-    values.chunks_exact(dim).map(of_pair).collect()
-}
-
 impl<'a> Equations<'a> {
     /// The equations of a whole problem.
     pub fn of(contact: &'a Contact<'a>) -> Self {

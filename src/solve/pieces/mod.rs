@@ -15,7 +15,7 @@ mod term;
 mod updated;
 
 pub use before::Before;
-pub use equations::{Equations, Point, Step, by_pairs};
+pub use equations::{Equations, Point, Step};
 pub use system::{Border, System};
 pub use systems::{REFINEMENTS, SMALL, Systems};
 pub use updated::Updated;

@@ -16,9 +16,9 @@
 //! Nothing is divided by the slip. The sign of the determinant is that of `J`, or of `J` bordered: the
 //! components that are eliminated have the pivot 1.
 
-use super::equations::{Equations, by_pairs};
+use super::equations::Equations;
 use super::held::{self, Held};
-use crate::law::{Assembly, Image, Linearised, Unknown, Vector, ellipse};
+use crate::law::{Assembly, Image, Linearised, Unknown, Vector, by_pairs, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{dot, opposite};

@@ -11,10 +11,10 @@
 //! changes since then in turn, as all solutions do.
 
 use super::columns::Columns;
-use super::equations::{Equations, by_pairs};
+use super::equations::Equations;
 use super::system::System;
 use super::term::{Term, terms};
-use crate::law::Linearised;
+use crate::law::{Linearised, by_pairs};
 use crate::linalg::simd::subtract_columns;
 use crate::linalg::tolerances::SINGULAR_BASIS;
 use crate::linalg::vector::dot;
