@@ -4,7 +4,7 @@ use super::enclosure::enclose;
 use super::system::{Centre, System};
 use crate::law::{Contact, EnclosedPiece, State};
 use crate::linalg::ball::{Ball, BallVector, sum_up};
-use crate::linalg::vector::{first_not_finite, largest_of};
+use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::linalg::watched::GoesOn;
 use crate::problem::ContactProblem;
 
@@ -102,10 +102,9 @@ pub(crate) fn errors(
     (d, radius): (&[f64], &[f64]),
     forces: (&[f64], &[f64]),
 ) -> [f64; 2] {
-    let part = |radius: &[f64], sizes: f64| match largest_of(radius.iter().copied()) {
+    let part = |radius: &[f64], size: f64| match norm_inf(radius) {
         0.0 => 0.0,
-        radius => sum_up(radius / sizes, 0.0),
+        radius => sum_up(radius / size, 0.0),
     };
-    let sizes = |values: &[f64]| largest_of(values.iter().copied());
-    [part(radius, sizes(d)), part(forces.1, sizes(forces.0).max(sizes(load)))]
+    [part(radius, norm_inf(d)), part(forces.1, norm_inf(forces.0).max(norm_inf(load)))]
 }
