@@ -49,17 +49,12 @@ impl ApproximateInverse {
         product
     }
 
-    /// Bounds on the entries of `|R| x`, of an `x` that has no negative entry.
-    pub fn bound(&self, x: &[f64]) -> Vec<f64> {
-        bound_of_product(&self.inverse, x)
-    }
-
     /// Bounds on `|R| g` where each entry of `g` is the rounding of inner products of a size, and a doubt.
     fn rest(&self, sizes: &[f64], doubt: &[f64]) -> Vec<f64> {
         let rounding = gamma(self.size());
         let both = sizes.iter().zip(doubt);
         let wide = both.map(|(size, doubt)| sum_up(product_up(size.abs(), rounding), *doubt));
-        self.bound(&wide.collect::<Vec<_>>())
+        bound_of_product(&self.inverse, &wide.collect::<Vec<_>>())
     }
 
     /// Bounds on the sizes of the entries of `R g` where each entry of `g` is at most `doubt` from that of
