@@ -119,12 +119,12 @@ fn on_uncertain_pairs(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Cand
 }
 
 fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Candidate {
-    let Call { contact, settings, start } = *call;
+    let (contact, settings) = (call.contact, call.settings);
     let equations = Equations::of(contact);
     // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
     let reference: Vec<f64> = references(contact.pairs(), 2).collect();
     let load = opposite(&equations.force(&reference));
-    let mut starts = Starts::new(contact, &equations.root, equations.length(&load), start);
+    let mut starts = Starts::new(call, &equations.root, equations.length(&load));
     let mut best = Candidate::without_displacements(contact, LOST);
     let mut effort = Effort::default();
     for (number, &attempt) in attempts.iter().enumerate() {

@@ -6,6 +6,7 @@ use super::linear_walk::Rules;
 use crate::law::{Contact, PairLaw, Planar};
 use crate::linalg::perturbation::Perturbation;
 use crate::monitor::Monitor;
+use crate::solve::result::Call;
 use crate::solve::sweeps::sweep_pairs;
 
 /// Events that any walk may take.
@@ -103,14 +104,9 @@ pub struct Starts<'p> {
 }
 
 impl<'p> Starts<'p> {
-    /// Begins at the displacements `start` (zero if `None`); `size` is the length of the loads, `root` gives the units.
-    pub fn new(
-        contact: &'p Contact<'p>,
-        root: &'p [f64],
-        size: f64,
-        start: Option<&[f64]>,
-    ) -> Self {
-        let d = start.map_or_else(|| vec![0.0; contact.unknowns()], <[f64]>::to_vec);
+    /// Begins at the start of the call; `size` is the length of the loads, `root` gives the units.
+    pub fn new(call: &Call<'p>, root: &'p [f64], size: f64) -> Self {
+        let (contact, d) = (call.contact, call.start_or_zero());
         let (force, mean) = (contact.problem().force(&d), size / (root.len() as f64).sqrt());
         Starts { contact, root, d, force, mean, random: Perturbation::new(0) }
     }
