@@ -72,14 +72,8 @@ pub trait NormalMap {
         self.moved(point, step, 1.0).map(|next| (next, 1.0))
     }
 
-    /// The point from which the next system is made, after this part of `step` has led to `point`.
-    fn after(
-        &mut self,
-        point: Self::Point,
-        _step: Self::Step,
-        _part: f64,
-        _monitor: &mut Monitor<'_>,
-    ) -> Self::Point {
+    /// The point from which the next system is made, after this part of a step has led to `point`.
+    fn after(&mut self, point: Self::Point, _part: f64, _monitor: &mut Monitor<'_>) -> Self::Point {
         point
     }
 }
@@ -157,7 +151,7 @@ pub fn solve<M: NormalMap>(
             break Ending::Stalled("the forces are beyond the largest number");
         }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
-        let before = std::mem::replace(&mut point, map.after(next, step, part, monitor));
+        let before = std::mem::replace(&mut point, map.after(next, part, monitor));
         let now = map.merit(&point);
         best = best.or(Some(before)).filter(|best| map.merit(best) < now);
     };

@@ -313,7 +313,7 @@ impl NormalMap for Dense<'_> {
         })
     }
 
-    fn after(&mut self, point: Point, _step: Step, part: f64, monitor: &mut Monitor<'_>) -> Point {
+    fn after(&mut self, point: Point, part: f64, monitor: &mut Monitor<'_>) -> Point {
         let is_linear = self.systems.are_of_pieces();
         self.is_exact = part == 1.0 && point.pieces == self.pieces;
         if is_linear && let Some(stuck) = self.without_reversal(&point) {
