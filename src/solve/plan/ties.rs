@@ -12,7 +12,7 @@
 //! same matrix and the same ties has the same block, and what this one leaves of it.
 
 use crate::certificate::{Certificate, is_escape_of, measure};
-use crate::error::{Error, Message};
+use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
@@ -151,8 +151,8 @@ impl Others {
         let holds = certificate.holds(settings.tolerance);
         let (status, message) = match found.status {
             Status::NoEquilibrium => (found.status, found.message),
-            Status::Solved => told(&at.ending, settings, &certificate),
-            _ if holds => told(&Ending::Done, settings, &certificate),
+            Status::Solved => at.ending.status(settings, &certificate),
+            _ if holds => Ending::Done.status(settings, &certificate),
             // The sentence of the others, with the measure of the whole.
             _ => {
                 let measured = |by: &Certificate| format!("eta is {:.1e}", by.eta);
@@ -191,14 +191,8 @@ impl Others {
         {
             let motion = solution.recession.take().unwrap_or_default();
             (solution.status, solution.message) =
-                told(&Ending::Recession(motion), call.settings, &solution.certificate);
+                Ending::Recession(motion).status(call.settings, &solution.certificate);
         }
         solution
     }
-}
-
-/// Status and sentence of an ending.
-fn told(ending: &Ending, settings: &Settings, certificate: &Certificate) -> (Status, Message) {
-    let (status, sentence) = ending.status(settings, certificate);
-    (status, sentence.into())
 }

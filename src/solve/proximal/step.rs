@@ -3,7 +3,7 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness, wanted};
@@ -41,16 +41,6 @@ pub fn ended<R: Relation>(
     Solution { factorisations: systems, ..Solution::of(method, ended, d, certificate) }
 }
 
-/// The limit that a status tells.
-fn stop(status: Status) -> Option<Stop> {
-    match status {
-        Status::IterationLimit => Some(Stop::IterationLimit),
-        Status::TimeLimit => Some(Stop::TimeLimit),
-        Status::Cancelled => Some(Stop::Cancelled),
-        _ => None,
-    }
-}
-
 /// Why rounds with springs, each of which is solved, end without a solution of the problem.
 const UNSETTLED: &str = "no solution was found: forces that hardly move anything do not settle";
 
@@ -74,11 +64,8 @@ pub fn measured<R: Relation>(
             let of_problem = wanted(&certificate, settings.tolerance);
             (Status::Stalled, round.message.marked().replace(&of_round, &of_problem).into())
         }
-        other => match stop(other) {
-            Some(stop) => {
-                let (status, sentence) = Ending::Stopped(stop).status(settings, &certificate);
-                (status, sentence.into())
-            }
+        other => match other.stop() {
+            Some(stop) => Ending::Stopped(stop).status(settings, &certificate),
             None => (other, round.message.clone()),
         },
     };

@@ -27,7 +27,7 @@ pub fn certified(call: &Call<'_>, method: Method, candidate: Candidate) -> Solut
         let mut motion = motion.to_vec();
         normalise(&mut motion);
         recession = Some(motion);
-        (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.to_owned());
+        (status, message) = (Status::NoEquilibrium, NO_EQUILIBRIUM.into());
     }
     let Candidate { d, low, effort, errors, orientation, definite, .. } = candidate;
     let mut solution = Solution {

@@ -2,7 +2,7 @@
 
 use super::solution::{Fallback, Status};
 use crate::certificate::Certificate;
-use crate::error::{Error, number};
+use crate::error::{Error, Message, number};
 use crate::monitor::Stop;
 use crate::settings::Settings;
 
@@ -55,15 +55,16 @@ pub fn wanted(certificate: &Certificate, tolerance: f64) -> String {
 
 impl Ending {
     /// Status and sentence of a run with this certificate; whether a motion proves something is not asked.
-    pub fn status(&self, settings: &Settings, certificate: &Certificate) -> (Status, String) {
-        if certificate.holds(settings.tolerance) {
-            return (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta));
-        }
+    pub fn status(&self, settings: &Settings, certificate: &Certificate) -> (Status, Message) {
         let wanted = wanted(certificate, settings.tolerance);
-        match self {
+        let (status, sentence) = match self {
+            _ if certificate.holds(settings.tolerance) => {
+                (Status::Solved, format!("solved: eta is {:.1e}", certificate.eta))
+            }
             Ending::Stopped(stop) => stop.status(settings, &wanted),
             other => (Status::Stalled, format!("{}; {wanted}", other.reason(certificate))),
-        }
+        };
+        (status, sentence.into())
     }
 
     /// Why another method is asked after this end, on pieces whose system has this orientation.

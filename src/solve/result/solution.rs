@@ -158,7 +158,7 @@ impl Solution {
     /// The result of a method alone.
     pub fn of(
         method: Method,
-        (status, message): (Status, String),
+        (status, message): (Status, impl Into<Message>),
         d: Vec<f64>,
         certificate: Certificate,
     ) -> Self {
