@@ -23,13 +23,25 @@ impl<'p> Springs<'p> {
         by_all_means: bool,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Stop> {
-        let stiffness = stiffness(relation, COMPLIANCE, monitor)?;
-        Ok(stiffness.map(|stiffness| Springs {
-            relation,
-            compliance: COMPLIANCE,
-            stiffness,
-            by_all_means,
-        }))
+        Self::of(relation, COMPLIANCE, by_all_means, monitor)
+    }
+
+    /// No springs, for methods of all kinds; `None` if `W` is singular.
+    pub fn none(
+        relation: &'p Flexibility<'p>,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Self>, Stop> {
+        Self::of(relation, 0.0, true, monitor)
+    }
+
+    fn of(
+        relation: &'p Flexibility<'p>,
+        compliance: f64,
+        by_all_means: bool,
+        monitor: &mut Monitor<'_>,
+    ) -> Result<Option<Self>, Stop> {
+        let stiffness = stiffness(relation, compliance, monitor)?;
+        Ok(stiffness.map(|stiffness| Springs { relation, compliance, stiffness, by_all_means }))
     }
 }
 

@@ -1,8 +1,8 @@
 //! The flexibility form `d = W F + q`, with a `W` that may be singular.
 //!
-//! A definite `W` is left to Newton's method on `W` itself ([`super::on_flexibility`]). Where that fails, and where `W` is
-//! singular, rounds follow; and where they end without a solution a few pairs are solved from points that are drawn
-//! ([`super::drawn`]).
+//! A definite `W` is left to Newton's method on `W` itself ([`super::on_flexibility`]), and where that fails to all methods
+//! on the stiffness `W⁻¹`. Where that fails, and where `W` is singular, rounds follow; and where they end without a solution a few
+//! pairs are solved from points that are drawn ([`super::drawn`]).
 //!
 //! Forces that `W` does not feel are not determined by displacements. So each pair gets a soft spring in
 //! series:
@@ -20,13 +20,14 @@ use super::compliant::{Springs, is_definite, is_indefinite};
 use super::drawn::drawn;
 use super::growth::sentence;
 use super::on_flexibility::{LawPoint, OnFlexibility};
-use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
-use super::step::ended;
+use super::rounds::{InSeries, RoundsFound, rounds, solve as solve_by_rounds};
+use super::step::{ended, step};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, bounded, exceed_gaps};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::normalise;
 use crate::monitor::Monitor;
-use crate::problem::{Flexibility, FlexibilityProblem};
+use crate::problem::{Flexibility, FlexibilityProblem, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::newton::NewtonOutcome;
 use crate::solve::result::{Ending, Solution, Solve, Status};
@@ -46,7 +47,10 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let contact = &Contact::new(problem);
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    if let Some(found) = on_itself(contact, settings, &force, monitor) {
+    let on_itself = on_itself(contact, settings, &force, monitor);
+    // A stiffness that is hardly told from rounding is left to Newton's method.
+    let is_told = on_itself.is_some();
+    if let Some(found) = on_itself {
         let solution = found.solution(contact, settings);
         if solution.status != Status::Stalled {
             return Ok(solution);
@@ -54,6 +58,13 @@ pub fn solve(
         if let Some(rest) = at_rest(contact, settings, &solution) {
             return Ok(rest);
         }
+    }
+    let of_stiffness = match settings.method {
+        Method::Auto if !is_told => Settings { method: Method::Newton, ..settings.clone() },
+        _ => settings.clone(),
+    };
+    if let Some(found) = on_stiffness(problem, (&of_stiffness, solve), monitor)? {
+        return Ok(found);
     }
     let with_start = (settings, start);
     let (found, proof) =
@@ -148,6 +159,28 @@ pub fn on_itself(
     let mut equations = OnFlexibility::new(contact, true);
     let begin = equations.coordinates(force);
     Some(equations.solve(begin, settings.tolerance, monitor))
+}
+
+/// The solution on the stiffness `K = W⁻¹`, with the load `K q`, and what rounds without springs make of it on `W`. `None` if there
+/// is none, or no stiffness.
+fn on_stiffness(
+    problem: &FlexibilityProblem<'_>,
+    (settings, solve): (&Settings, Solve),
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Solution>, Error> {
+    let relation = problem.relation();
+    let Ok(Some(mut none)) = Springs::none(relation, monitor) else { return Ok(None) };
+    let size = problem.unknowns();
+    let stiffness = Matrix::new(size, none.stiffness(), size.max(1));
+    let load = stiffness.product(relation.free);
+    let form = Stiffness::new(stiffness, &load, problem.dim());
+    let found = step(problem, form, &vec![0.0; size], (settings, solve), monitor)?;
+    if found.status != Status::Solved {
+        return Ok(None);
+    }
+    let force = found.certificate.force;
+    let found = rounds(problem, &mut none, force, (settings, solve), monitor)?;
+    Ok(Some(found.solution).filter(|solution| solution.status == Status::Solved))
 }
 
 /// True if Newton's method is chosen, or left to the default.

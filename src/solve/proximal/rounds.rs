@@ -8,8 +8,8 @@
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
 //! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
-//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. It is lowered again
-//! once the error is a tenth of that. From then on, with the largest, and without friction, the default method has all its
+//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. Once the error
+//! is a tenth of that, with the largest `e`, and without friction, the default method has all its
 //! means: a round with the largest that it leaves without a solution, and no nearer to one, ends the rounds, and its sentence is that
 //! of the problem.
 //!
@@ -201,7 +201,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
             match softest {
                 true => _ = self.keep(found, false, false),
                 false => {
-                    self.failed = self.last;
+                    self.failed = if self.is_nearer() { self.last } else { self.failed };
                     self.springs.change(true, monitor);
                 }
             }
@@ -223,7 +223,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let allowed = self.settings.tolerance * norm_inf(&self.force);
         let settled = is_rounding || settles(self.changes, allowed);
         let before = self.springs.compliance();
-        if !failed && is_slow && !settled && eta <= SLOW * self.failed {
+        if !failed && is_slow && !settled {
             self.springs.change(false, monitor);
         }
         self.lowered = self.springs.compliance() < before;
@@ -239,12 +239,18 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE)
     }
 
+    /// True if the error is a tenth of that before the round that less compliant springs have failed in.
+    fn is_nearer(&self) -> bool {
+        self.last <= SLOW * self.failed
+    }
+
     /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
     fn round(&mut self, tolerance: f64, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
-        let (has_failed, softest) = (self.failed.is_finite(), self.springs.are_softest());
+        let again = self.failed.is_finite() && self.is_nearer();
+        let softest = self.springs.are_softest();
         let frictionless = self.contact.is_frictionless();
         let method = match self.settings.method {
-            Method::Auto if !(has_failed || softest || frictionless) => Method::Newton,
+            Method::Auto if !(again || softest || frictionless) => Method::Newton,
             method => method,
         };
         let settings = Settings { tolerance, method, ..self.settings.clone() };
