@@ -24,8 +24,8 @@ pub enum Starts<'a> {
 }
 
 /// Load cases of a model, one after the other. What the solution of one has worked out of the model's
-/// stiffness, whatever the loads, serves the next ones: the last factor, and in space with friction the elimination of
-/// pairs that stay open. Each result is certified by itself. Its last digits depend on the cases before it in the series,
+/// stiffness, whatever the loads, serves the next ones: the last factor, and with friction the elimination of pairs that
+/// stay open, in the plane where they start at nothing. Each result is certified by itself. Its last digits depend on the cases before it in the series,
 /// and so may the choice among several solutions; the same cases in the same order give the same bits.
 pub struct Series<'m> {
     model: &'m Model,

@@ -6,6 +6,7 @@ mod common;
 mod cases;
 mod histories;
 mod limits;
+mod plane_cases;
 mod series;
 mod slabs;
 mod warm_steps;

@@ -18,6 +18,7 @@
 use std::sync::Arc;
 
 use super::before::Kept;
+use super::descent::PATIENCE;
 use super::ended::Ended;
 use super::iteration::OPEN;
 use super::start::swept;
@@ -35,8 +36,8 @@ pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the l
 /// problem needs.
 const TOO_MANY: f64 = 1.6;
 
-/// A solver of equations from given coordinates to a tolerance.
-pub type Core<'c> = dyn FnMut(&Equations<'_>, Vec<Vector>, &mut Monitor<'_>) -> Ended + 'c;
+/// A solver of equations from given coordinates to a tolerance. It may end with [`OPEN`] where it is told so.
+pub type Core<'c> = dyn FnMut(&Equations<'_>, (Vec<Vector>, bool), &mut Monitor<'_>) -> Ended + 'c;
 
 /// Solves a problem: sweeps, then `core` on the candidates.
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Candidate {
@@ -45,8 +46,12 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let remembered = contact.problem().remembered();
     // Nothing is left of a problem that is not solved.
     let before = remembered.and_then(Remembered::take::<Kept>);
-    let mut search =
-        Search { tolerance: settings.tolerance, core, is_series: remembered.is_some() };
+    let mut search = Search {
+        tolerance: settings.tolerance,
+        core,
+        is_series: remembered.is_some(),
+        left: PATIENCE,
+    };
     let begun = before.and_then(|before| begun(&whole, &before, start, monitor));
     let mut spent = 0;
     let mut found = begun.and_then(|(reduced, y)| {
@@ -58,6 +63,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
         let Some(y) = swept(&whole, start, monitor) else {
             return Candidate::without_displacements(contact, OVERFLOW);
         };
+        search.left = PATIENCE;
         let alone = search.on(&whole, None, y, monitor);
         found = Some(Ended { systems: spent + alone.systems, ..alone });
     }
@@ -90,6 +96,8 @@ struct Search<'s, 'c> {
     core: &'s mut Core<'c>,
     /// True if the candidates of other problems stay among those of this one.
     is_series: bool,
+    /// How many times the core may end with [`OPEN`].
+    left: usize,
 }
 
 impl Search<'_, '_> {
@@ -112,11 +120,12 @@ impl Search<'_, '_> {
             let part = match on_part {
                 Ok(Some(part)) => part,
                 Ok(None) => {
-                    let found = (self.core)(whole, y, monitor);
+                    let found = (self.core)(whole, (y, self.left > 0), monitor);
                     systems += found.systems;
                     if found.ending != OPEN {
                         return Ended { systems, ..found };
                     }
+                    self.left -= 1;
                     (kept, y) = (Vec::new(), found.y);
                     continue;
                 }
@@ -164,7 +173,7 @@ impl Search<'_, '_> {
     ) -> Ended {
         let is_series = std::mem::take(&mut self.is_series);
         if equations.dim > 2 && !is_series {
-            return (self.core)(equations, y, monitor);
+            return (self.core)(equations, (y, false), monitor);
         }
         let found = self.on(equations, None, y, monitor);
         self.is_series = is_series;

@@ -61,7 +61,7 @@ pub fn solve(
     dense.descend(point, (tolerance, least_systems), monitor)
 }
 
-/// Solves a whole problem in the plane, which has these equations: from the solution on the pieces of the problem before with
+/// Solves a whole problem in the plane, which has these equations, near its start: from the solution on the pieces of the problem before with
 /// the same matrix, if they are its solution, and from sweeps. The certificate, which reads `K` anyway, tells if they are.
 /// `None`: the sweeps lead beyond the largest number.
 pub fn solve_in_plane(

@@ -2,9 +2,9 @@
 //! plane and in space, with the exact friction disc.
 //!
 //! Some sweeps (`start`), then Newton's method with a line search (`iteration`). The pairs that are surely open are eliminated
-//! first (`candidates`). In the plane one factor serves many systems; in space problems that share a matrix share what is
-//! eliminated, and the factor of the solution before (`before`). Pairs that are far stiffer along one tangent than along the other are first solved on tangents along which
-//! they are as stiff (`levelled`).
+//! first (`candidates`). Problems that share a matrix share what is eliminated, and in space the factor of the solution before
+//! (`before`). In the plane one factor serves many systems: what starts at a solution needs no elimination. Pairs that are far
+//! stiffer along one tangent than along the other are first solved on tangents along which they are as stiff (`levelled`).
 
 mod before;
 mod candidates;
@@ -18,7 +18,6 @@ mod start;
 mod uncertain_pairs;
 
 pub use candidates::solve as on_candidates;
-use descent::PATIENCE;
 pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend};
 pub use ended::Ended;
 pub use iteration::{from_pieces, solve as newton_from};
@@ -37,17 +36,15 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
     let in_space = contact.dim() > 2;
     let is_series = contact.problem().remembered().is_some();
-    if !in_space && is_series {
+    // From nothing, beams with open pairs are solved on their candidates alone.
+    if !in_space && is_series && call.start.is_some() {
         let whole = Equations::of(contact);
         let overflown = || Candidate::without_displacements(contact, candidates::OVERFLOW);
         return iteration::solve_in_plane(call, &whole, monitor).unwrap_or_else(overflown);
     }
-    let (tolerance, mut left) = (settings.tolerance, PATIENCE);
-    let core: &mut candidates::Core<'_> = &mut |equations, y, monitor| {
-        let leaves_open = !in_space && left > 0;
-        let ended = iteration::solve(equations, y, (tolerance, leaves_open), monitor);
-        left -= usize::from(ended.ending == iteration::OPEN);
-        ended
+    let tolerance = settings.tolerance;
+    let core: &mut candidates::Core<'_> = &mut |equations, (y, leaves_open), monitor| {
+        iteration::solve(equations, y, (tolerance, !in_space && leaves_open), monitor)
     };
     let start = call.start.filter(|_| is_series);
     let again =

@@ -27,7 +27,9 @@ pub fn curved(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     if let Some(motion) = rigid::escape(call.contact, monitor) {
         return Candidate::without_displacements(call.contact, Ending::Recession(motion));
     }
-    on_candidates(call, monitor, &mut |equations, y, monitor| from(call, equations, y, monitor))
+    on_candidates(call, monitor, &mut |equations, (y, _), monitor| {
+        from(call, equations, y, monitor)
+    })
 }
 
 /// Ends of paths from several starts, moved at random by all of the loads, and what Newton's method makes of the starts
