@@ -86,7 +86,7 @@ pub(crate) fn solve_dependent(
 /// [`Solution::omega`] and [`Solution::damping`].
 ///
 /// # Errors
-/// As [`solve()`]; a `W` with negative eigenvalues. Where the largest island would need more memory than the settings
+/// As [`solve()`]; a search for other solutions; a `W` with negative eigenvalues. Where the largest island would need more memory than the settings
 /// allow it is named.
 pub fn solve_flexibility(
     problem: &FlexibilityProblem<'_>,
@@ -94,6 +94,10 @@ pub fn solve_flexibility(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
+    if settings.search == Search::Others {
+        let message = "settings: the search for other solutions needs a stiffness, which the flexibility form does not have";
+        return Err(Error::invalid(Argument::Settings, message));
+    }
     let (form, by) = (&problem.relation().form, (settings, plan::solve as Solve));
     let copy = || match form {
         FlexibilityForm::Dense(_) => copies_of(problem),

@@ -7,7 +7,7 @@ use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Method, Monitor,
-    Settings, State, Status, Uniqueness, solve, solve_flexibility,
+    Search, Settings, State, Status, Uniqueness, solve, solve_flexibility,
 };
 
 /// The flexibility of a node on springs of stiffness 2 along each axis against planes with these outward
@@ -529,4 +529,16 @@ fn forces_of_beams_are_those_of_the_stiffness_form() {
         let error = largest(&difference(&force, &other)) / largest(&other);
         assert!(error < 1e-6, "seed {seed}: {error:e}");
     }
+}
+
+/// A question that the form cannot answer is refused, as in full space.
+#[test]
+fn a_search_for_other_solutions_is_refused() {
+    let case = node_on_planes(&[[0.0, -1.0]], [0.0, -1.0], 0.3);
+    case.solved();
+    let problem = FlexibilityProblem::from_flexibility(case.data()).unwrap();
+    let settings = Settings { search: Search::Others, ..Settings::default() };
+    let monitor = &mut Monitor::new(&settings, None);
+    let error = solve_flexibility(&problem, &settings, None, monitor).unwrap_err();
+    assert!(error.to_string().contains("search for other solutions"), "{error}");
 }
