@@ -22,7 +22,7 @@ use crate::problem::Islands;
 
 /// Neighbours are parts of one smooth surface if the cosine between their normals is above this: 35 degrees, as 13
 /// divisions of a circle whose nodes are shifted by a fifth have them.
-const SMOOTH: f64 = 0.82;
+pub(super) const SMOOTH: f64 = 0.82;
 
 /// Unit normals of each face at its nodes.
 pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;

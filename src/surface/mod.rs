@@ -33,6 +33,7 @@ mod digits;
 mod exact_shape;
 mod face;
 mod face_checks;
+mod facets;
 mod fields;
 mod fitted_normals;
 mod fitted_quadric;

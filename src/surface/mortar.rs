@@ -17,7 +17,7 @@ use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
-use super::projected_shapes::{Covered, NOWHERE, Opposite, Polynomials};
+use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
 use super::self_overlap::UPON;
@@ -71,7 +71,6 @@ pub(super) fn pairs<'a>(
                 report.held_in_part.extend(in_part.then_some(at));
             }
         }
-        report.distances.push(cover.0.as_ref().map_or(NOWHERE, |covered| covered.range));
         faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
@@ -156,9 +155,6 @@ impl<'a> Search<'a> {
         if let Some(shapes) = shapes {
             let gaps = shapes.gaps((at, face), points, &parts);
             covered.gaps = polynomials.fit(&gaps);
-            covered.range = range(gaps.iter().map(|gap| [*gap; 2]));
-        } else {
-            covered.range = range(parts.iter().map(|opposite| opposite.part.range));
         }
         Ok((Some(covered), share(&parts) >= 1.0 - SAME_COVER && is_off_axis))
     }
@@ -220,11 +216,6 @@ fn keep(
         is_kept
     });
     points.truncate(end);
-}
-
-/// The range of several.
-fn range(of: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    of.fold(NOWHERE, |[low, high], [least, most]| [low.min(least), high.max(most)])
 }
 
 /// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between

@@ -10,9 +10,8 @@ use super::symmetry::OnPlanes;
 use super::unit::Unit;
 use super::watch::Watch;
 use super::with_images::WithImages;
-use super::{mortar, node_to_surface, obstacle, self_overlap};
+use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
-use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::monitor::Monitor;
 use crate::problem::checked_dim;
 
@@ -97,8 +96,8 @@ fn pair_sides(
     watch.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
     watch.goes_on()?;
-    found.report.overlapping_and_rough = overlapping_and_rough(&slave, &found, settings, watch)?;
-    found.report.distances = Vec::new();
+    found.report.large_facets = facets::too_large(&found, (&slave, settings), watch)?;
+    found.report.stand_off = Vec::new();
     Ok(found)
 }
 
@@ -125,6 +124,7 @@ fn search(
             node_to_surface::pairs(sides, on, (own, candidates), settings.normals, watch)?
         }
     };
+    facets::stand_off(sides, settings, (&mut found, watch))?;
     if settings.keep_turns {
         found.pairs.iter_mut().for_each(|pair| pair.keep_turns(sides));
     }
@@ -152,50 +152,4 @@ fn reach(sides: [(&Side<'_>, &OnPlanes); 2], settings: &SurfaceSettings) -> Reac
 fn span(sides: [&Side<'_>; 2]) -> f64 {
     let [own, opposite] = sides.map(Side::bounds);
     own.with(&opposite).diagonal()
-}
-
-/// Between the ends of a chord an arc stands off by two thirds of the most in the mean, which is off the middle of its range by a
-/// sixth: facets change the mean gap by so many times that. Facets of one length change it by nothing.
-const OF_ARC: f64 = 4.0;
-
-/// The slave faces whose pairs overlap the other side in the mean, and those of them on which gaps differ by more than that: from
-/// node to node, or between nodes, where they do so on one side of their mean as the gaps of facets do. Then a face counts that
-/// overlaps in places. On a wedge gaps differ between nodes as they do from node to node.
-///
-/// # Errors
-/// What ends the watch.
-fn overlapping_and_rough(
-    slave: &Side<'_>,
-    found: &SurfacePairs,
-    settings: &SurfaceSettings,
-    watch: &mut Watch<'_, '_>,
-) -> Result<[usize; 2], Error> {
-    let mut gap_at = vec![None; found.pairs.last().map_or(0, |pair| pair.slave + 1)];
-    found.pairs.iter().for_each(|pair| gap_at[pair.slave] = Some(pair.gap));
-    let [mut overlapping, mut rough] = [0, 0];
-    for at in 0..slave.count() {
-        watch.goes_on()?;
-        let face = slave.face(at);
-        let of_nodes = face.nodes.iter().map(|&node| *gap_at.get(node)?);
-        let gaps: Vec<f64> = of_nodes.flatten().collect();
-        let [least, most] = [f64::min, f64::max].map(|of| gaps.iter().copied().reduce(of));
-        let (Some(least), Some(most)) = (least, most) else { continue };
-        let overlap = -gaps.iter().sum::<f64>() / gaps.len() as f64;
-        // Sides that touch have gaps of rounding, of either sign.
-        let rounding = ROUNDING_OF_SUM * face.size();
-        let overlaps = overlap > rounding;
-        // Gaps that were closed do not vary.
-        let closed = settings.gap(0.0);
-        let is_closed = least == closed && most == closed;
-        let within = found.report.distances.get(at).filter(|_| !is_closed);
-        let is_rough_within = within.is_some_and(|range| {
-            let [low, high] = range.map(|distance| settings.gap(distance));
-            let lost = OF_ARC * (-overlap - 0.5 * (low + high));
-            let given = overlap.abs().min((overlap + lost).abs()).max(rounding);
-            -low > rounding && high - low > (most - least) + overlap.abs() && lost.abs() > given
-        });
-        overlapping += usize::from(overlaps || is_rough_within);
-        rough += usize::from(overlaps && most - least > overlap || is_rough_within);
-    }
-    Ok([overlapping, rough])
 }

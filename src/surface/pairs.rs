@@ -85,11 +85,12 @@ pub struct SurfaceReport {
     pub beside_planes: Vec<(usize, usize, f64)>,
     /// Slave faces that look away from an obstacle that is a shape.
     pub looking_away: usize,
-    /// Slave faces whose pairs overlap the other side in the mean, or which do in places while gaps differ by more than their mean,
-    /// and those of them on which gaps differ by more than that: the facets are larger than the interference.
-    pub overlapping_and_rough: [usize; 2],
-    /// The least and the largest distance within each slave face, while pairs are made.
-    pub(super) distances: Vec<[f64; 2]>,
+    /// Number of pairs at which facets of curved sides change an interference by more than a tenth of it, and the most by which they
+    /// change it. `None`: there are none, or few.
+    pub large_facets: Option<(usize, f64)>,
+    /// How far the true surfaces of both sides stand off their facets, outward, in the mean at each slave node with a pair, while
+    /// pairs are made.
+    pub(super) stand_off: Vec<(usize, [f64; 2])>,
 }
 
 /// An entry of a row: `true` of a master, the node, its weight, and what keeps turns.

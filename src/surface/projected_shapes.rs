@@ -24,9 +24,6 @@ const PASSES: usize = 2;
 /// A function that keeps this share of its norm has lost nothing in the first pass.
 const KEPT: f64 = 0.9;
 
-/// The range of no numbers.
-pub(super) const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
-
 /// Most nodes of a linear face.
 const MOST_LINEAR: usize = 4;
 
@@ -54,8 +51,6 @@ pub(super) struct Covered {
     coefficients: Vec<f64>,
     /// Coefficients of the gap between true shapes at the slave's nodes; zero if the sides are their faces.
     pub(super) gaps: Values,
-    /// The least and the largest distance at the points.
-    pub(super) range: [f64; 2],
     /// Master faces under it are so small that its pairs hold several in the mean.
     pub(super) holds_many: bool,
 }
@@ -256,7 +251,6 @@ impl Polynomials {
             integrals: [0.0; MOST_NODES],
             slaves,
             gaps: [0.0; MOST_NODES],
-            range: NOWHERE,
             holds_many: false,
             masters: Vec::with_capacity(most),
             coefficients: Vec::with_capacity(slaves * most),

@@ -12,11 +12,11 @@ impl SurfacePairs {
         if self.report.looking_away > 0 && self.report.looking_away == self.report.slave_faces {
             text += "; all slave faces look away from the obstacle: is its direction turned round, or is it hollow?";
         }
-        let [overlapping, rough] = self.report.overlapping_and_rough;
-        if rough > 0 && rough >= overlapping / A_PART {
+        if let Some((pairs, most)) = self.report.large_facets {
             text += &format!(
-                "; on {rough} of {overlapping} slave faces that overlap the other side gaps differ by more than their mean: if the \
-                 surfaces are curved, their facets are larger than the interference; give their true shapes"
+                "; at {pairs} pairs the facets of both sides change the interference by more than a tenth of it, by up to {}: if the \
+                 surfaces are curved, give their true shapes, as their facets are larger than the interference allows",
+                short(most)
             );
         }
         if let Some(least) = self.all_overlap_by() {
@@ -135,9 +135,6 @@ impl SurfacePairs {
         }
     }
 }
-
-/// One of so many overlapping faces with gaps that differ is a wedge or an edge; more are facets.
-const A_PART: usize = 4;
 
 /// Lengths in here are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e4;

@@ -56,7 +56,7 @@ impl Unit {
         length(&mut report.overlap_distance);
         report.folded.iter_mut().for_each(|fold| length(&mut fold.distance));
         report.beyond.iter_mut().for_each(|(_, distance)| length(distance));
-        report.distances.iter_mut().flatten().for_each(length);
+        report.stand_off.iter_mut().for_each(|(_, both)| both.iter_mut().for_each(length));
         area(&mut report.slave_area);
         area(&mut report.covered_area);
         Ok(found)

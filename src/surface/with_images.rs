@@ -111,6 +111,7 @@ impl WithImages {
         report.uncovered_faces.retain(|face| *face < slave.count());
         report.held_in_part.retain(|face| *face < slave.count());
         report.beyond.retain(|(face, _)| *face < slave.count());
+        report.stand_off.retain(|(node, _)| images.is_own(*node));
         report.folded.retain(|fold| images.is_own(fold.node));
         report.folded.iter_mut().for_each(|fold| fold.into = images.home(fold.into).0);
         for pair in &mut found.pairs {

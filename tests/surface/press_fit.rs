@@ -173,7 +173,8 @@ fn rings_have_the_pressure_of_lame() {
 
 /// The facets of 40 on 13 elements stand apart by up to 30 times the interference: the summary says so, whichever side is the
 /// slave, and with true shapes there is nothing to say. Of 64 on 150 they hide a third of the interference, and more than all of
-/// a tenth of it, from the side of 64, whose pairs have one gap all around; as many on as many hide none, however they are turned.
+/// a tenth of it, from the side of 64, whose pairs have one gap all around, and 150 on 64 add as much; facets of 13 in 40, and of 24
+/// in 240, open by more than the interference. As many on as many change none, however they are turned.
 #[test]
 fn facets_that_are_larger_than_the_interference_are_told() {
     let facets = (TrueShape::Facets, true);
@@ -183,6 +184,9 @@ fn facets_that_are_larger_than_the_interference_are_told() {
         ([64, 150], 1.0, facets),
         ([64, 150], 0.1, facets),
         ([64, 150], 10.0, (TrueShape::Facets, false)),
+        ([150, 64], 1.0, facets),
+        ([13, 40], 1.0, facets),
+        ([24, 240], 0.1, facets),
         ([24, 24], 1.0, (TrueShape::Facets, false)),
     ] {
         let fit = Fit::new(divisions, Order::Linear, 0.0);

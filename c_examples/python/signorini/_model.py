@@ -21,7 +21,7 @@ from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
-from ._symmetry import warn_of_nodes_beside, warn_of_planes, warn_of_repeats, warn_of_rings
+from ._symmetry import warn_of_facets, warn_of_nodes_beside, warn_of_planes, warn_of_repeats, warn_of_rings
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
 
@@ -266,6 +266,7 @@ class Model(Remade):
         for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
             warn_of_nodes_beside(one, name)
+            warn_of_facets(one, name)
         for name, one in list(contacts.items())[:1]:  # zones are alike
             warn_of_rings(one, matrix, equations is not None, name)
             zone = f"zone {name!r}: " if name else ""

@@ -1,4 +1,4 @@
-"""Planes of symmetry, sectors and periods that supports and equations show, and that a pairing was not told."""
+"""Planes of symmetry, sectors and periods that supports and equations show, and true shapes, that a pairing was not told."""
 
 import re
 from collections import Counter
@@ -52,6 +52,12 @@ def warn_of_nodes_beside(contact, name=None):
     """Warns of slave nodes beside a plane of symmetry that the pairing was told, and not on it, as a direction of few digits
     leaves them."""
     for sentence in re.findall("slave node [^;]* away from plane of symmetry [^;]*", contact.summary):
+        tell((f"zone {name!r}: " if name else "") + sentence)
+
+
+def warn_of_facets(contact, name=None):
+    """Warns of facets that change an interference."""
+    for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
         tell((f"zone {name!r}: " if name else "") + sentence)
 
 

@@ -1,0 +1,143 @@
+//! How much facets change an interference: what the arcs of a circle stand off their chords and parabolas, in closed form.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::surfaces::{pair, steps};
+use signorini::surface::{Obstacle, SurfacePairs, SurfaceSettings, TrueShape};
+
+/// Nodes and faces of a line.
+type Line = (Vec<[f64; 3]>, Vec<Vec<usize>>);
+
+/// A closed line through nodes in their order, of faces with mid nodes or without.
+fn closed(nodes: Vec<[f64; 3]>, has_mids: bool) -> Line {
+    let count = nodes.len();
+    let next = |i: usize, by: usize| (i + by) % count;
+    let faces = match has_mids {
+        true => (0..count).step_by(2).map(|i| vec![i, next(i, 2), next(i, 1)]).collect(),
+        false => (0..count).map(|i| vec![i, next(i, 1)]).collect(),
+    };
+    (nodes, faces)
+}
+
+/// A circle, its body inside.
+fn circle(divisions: usize, (radius, centre): (f64, f64), turn: f64, has_mids: bool) -> Line {
+    let count = divisions * if has_mids { 2 } else { 1 };
+    let at = |angle: f64| [radius * angle.cos(), centre + radius * angle.sin(), 0.0];
+    let angles = steps(turn, turn + TAU, count);
+    closed(angles[..count].iter().map(|angle| at(*angle)).collect(), has_mids)
+}
+
+/// Pairs a line with another one, whose body is outside.
+fn in_hole(
+    (mut nodes, inner): Line,
+    (others, outer): Line,
+    inner_is_slave: bool,
+    settings: &SurfaceSettings,
+) -> SurfacePairs {
+    let first = nodes.len();
+    nodes.extend(others);
+    let turned = |face: &Vec<usize>| {
+        let mut face: Vec<usize> = face.iter().map(|node| first + node).collect();
+        face.swap(0, 1);
+        face
+    };
+    let outer: Vec<Vec<usize>> = outer.iter().map(turned).collect();
+    let sides = if inner_is_slave { [&inner[..], &outer] } else { [&outer[..], &inner] };
+    pair(2, &nodes, sides, settings).unwrap()
+}
+
+/// The mean distance of an arc of radius 1 from its chord, or from the parabola through its middle.
+fn off(divisions: usize, has_mids: bool) -> f64 {
+    let half = PI / divisions as f64;
+    match has_mids {
+        // At `t` of a half the parabola has the squared radius `1 - (1 - cos)² t² (1 - t²)`.
+        true => (1.0 - half.cos()).powi(2) / 15.0,
+        false => (half - half.sin() * half.cos()) / (2.0 * half.sin()),
+    }
+}
+
+/// Circles in each other, of the same radius, with an interference, either of which is the slave, in units of any size. What
+/// is told is right to the square of half a division, as the formulas are.
+#[test]
+fn facets_change_an_interference_by_what_arcs_stand_off_them() {
+    for (divisions, has_mids) in
+        [([64, 150], false), ([150, 64], false), ([24, 240], false), ([40, 13], true)]
+    {
+        let [own, opposite] = divisions.map(|count| off(count, has_mids));
+        let change = (own - opposite).abs();
+        let half = PI / divisions.into_iter().min().unwrap() as f64;
+        for (unit, inner_is_slave) in [(1.0, true), (1.0, false), (1024.0, true)] {
+            let [inner, outer] =
+                divisions.map(|count| circle(count, (unit, 0.0), 0.1 / count as f64, has_mids));
+            let told = |part: f64| {
+                let settings =
+                    SurfaceSettings { clearance: -part * change * unit, ..Default::default() };
+                let found = in_hole(inner.clone(), outer.clone(), inner_is_slave, &settings);
+                found.report.large_facets
+            };
+            let context = format!("{divisions:?} {has_mids} {unit} {inner_is_slave}");
+            // The interference that the facets leave is positive, or there is none.
+            for part in [0.5, 1.0, 5.0] {
+                let (_, most) = told(part).expect(&context);
+                let error = (most / unit - change).abs();
+                println!("{context} {part}: {:.2e} of {:.2e}", error / change, half * half);
+                assert!(error <= half * half * change.max(own).max(opposite), "{context}: {most}");
+            }
+            // They change it by a tenth of ten times themselves.
+            assert_eq!(told(10.0 * (1.0 + 2.0 * half * half) * 1.1), None, "{context}");
+        }
+    }
+}
+
+/// Facets of one length change nothing, turned or not, and neither do those of exact shapes. A loose body that touches is none with an interference.
+#[test]
+fn facets_that_cancel_or_are_loose_are_not_told() {
+    let shape = TrueShape::Exact(Obstacle::Sphere { centre: [0.0; 3], radius: 1.0, hollow: false });
+    let none = |found: SurfacePairs| assert_eq!(found.report.large_facets, None);
+    for inner_is_slave in [true, false] {
+        for overlap in [0.0, 1e-4, 1e-2] {
+            let settings = SurfaceSettings { clearance: -overlap, ..Default::default() };
+            for turn in [0.0, 0.3, 0.5] {
+                let [inner, outer] =
+                    [0.0, turn * TAU / 24.0].map(|turn| circle(24, (1.0, 0.0), turn, false));
+                none(in_hole(inner, outer, inner_is_slave, &settings));
+            }
+            let exact = SurfaceSettings { shapes: [shape; 2], ..settings };
+            let [inner, outer] = [24, 40].map(|count| circle(count, (1.0, 0.0), 0.1, false));
+            none(in_hole(inner, outer, inner_is_slave, &exact));
+        }
+        // Ten times what facets change.
+        let play = 10.0 * (off(32, false) - off(40, false));
+        for [inner, outer] in [[32, 40], [40, 32]] {
+            let inner = circle(inner, (1.0, 0.0), 0.1, false);
+            let outer = circle(outer, (1.0 + play, play), 0.0, false);
+            none(in_hole(inner, outer, inner_is_slave, &SurfaceSettings::default()));
+        }
+    }
+}
+
+/// Edges of flat faces are no curves, be they sharp or a chamfer of 30 degrees.
+#[test]
+fn edges_of_flat_faces_are_not_told() {
+    let side = |corners: &[[f64; 2]], count: usize, nodes: &mut Vec<[f64; 3]>| {
+        let first = nodes.len();
+        for ends in corners.windows(2) {
+            let [xs, ys] = [0, 1].map(|axis| steps(ends[0][axis], ends[1][axis], count));
+            nodes.extend(xs.iter().zip(ys).take(count).map(|(x, y)| [*x, y, 0.0]));
+        }
+        (first..nodes.len() - 1).map(|node| vec![node, node + 1]).collect::<Vec<_>>()
+    };
+    let chamfer = 0.1 * (PI / 6.0).tan();
+    let lower =
+        [[1.2, -1.0], [1.2, -chamfer], [1.1, 0.0], [0.1, 0.0], [0.0, -chamfer], [0.0, -1.0]];
+    let upper = [[0.05, 1.0], [0.05, 0.0], [1.15, 0.0], [1.15, 1.0]];
+    for (counts, overlap) in [([3, 4], 0.0), ([7, 4], 1e-3), ([3, 10], 1e-6)] {
+        let mut nodes = Vec::new();
+        let slave = side(&lower, counts[0], &mut nodes);
+        let master = side(&upper, counts[1], &mut nodes);
+        let settings = SurfaceSettings { clearance: -overlap, ..Default::default() };
+        let found = pair(2, &nodes, [&slave, &master], &settings).unwrap();
+        assert!(found.pairs.len() > counts[0], "{:?}", found.summary());
+        assert_eq!(found.report.large_facets, None, "{counts:?} {overlap}");
+    }
+}
