@@ -11,6 +11,7 @@ import re
 import sys
 import tempfile
 import unittest
+import warnings
 from unittest import mock
 
 import numpy as np
@@ -319,6 +320,22 @@ class Blocks(unittest.TestCase):
             self.assertTrue((found["types"] == 12).all())
             with self.assertRaisesRegex(ValueError, "displacements of all degrees"):
                 contact.write(path, {"hexahedron": blocks.bricks}, result, u[:10])
+
+    def test_facets_of_a_press_fit(self):
+        """Facets of 40 and 24 sides take more than an interference of 1e-3 away: a case is warned of, but one with gaps of its own."""
+        def ring(count):
+            angles = 2 * np.pi * np.arange(count) / count
+            return np.stack([np.cos(angles), np.sin(angles)], 1), np.arange(count)[:, None] + [0, 1]
+        (pin, inner), (hole, outer) = ring(24), ring(40)
+        places, springs = np.concatenate([pin, hole]), (np.ones(128), np.arange(128), np.arange(129))
+        contact = signorini.pair_surfaces(places, inner % 24, 24 + outer[:, ::-1] % 40, clearance=-1e-3)
+        for named, of in ((contact, ""), ({"fit": contact}, "zone 'fit': ")):
+            model = signorini.Model.from_surfaces(springs, named)
+            with self.assertWarnsRegex(UserWarning, f"^{of}at 24 pairs the facets of both sides .* larger than the interference"):
+                model.solve(np.zeros(128), mu=0.0)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                model.solve(np.zeros(128), gap=-1e-3, mu=0.0)
 
     def test_any_mesh(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -266,7 +266,6 @@ class Model(Remade):
         for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
             warn_of_nodes_beside(one, name)
-            warn_of_facets(one, name)
         for name, one in list(contacts.items())[:1]:  # zones are alike
             warn_of_rings(one, matrix, equations is not None, name)
             zone = f"zone {name!r}: " if name else ""
@@ -504,6 +503,9 @@ class Model(Remade):
 
     def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
+        if gap is None and self.contact is not None:
+            for name, one in (self._zones.contacts if self._zones else {None: self.contact}).items():
+                warn_of_facets(one, name)
         if self._zones is not None:
             gap = self._zones.gaps() if gap is None else self._zones.joined("gap", gap)
             slip0 = self._zones.joined("slip0", slip0, self.dim - 1)

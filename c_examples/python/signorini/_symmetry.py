@@ -56,7 +56,7 @@ def warn_of_nodes_beside(contact, name=None):
 
 
 def warn_of_facets(contact, name=None):
-    """Warns of facets that change an interference."""
+    """Warns of facets that change the interference of a case, if its gaps are those of the pairing."""
     for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
         tell((f"zone {name!r}: " if name else "") + sentence)
 
