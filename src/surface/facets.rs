@@ -10,10 +10,8 @@ use super::digits::left_open;
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
-use super::normals::at_nodes;
 use super::pairs::{SurfacePairs, Weight};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
-use super::shape::MOST_NODES;
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -60,18 +58,21 @@ pub(super) fn stand_off(
 fn at_all_nodes(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<f64>, Error> {
     let count = side.coordinates.len() / side.dim;
     let mut normals = vec![[0.0; 3]; count];
+    let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
     for at in 0..side.count() {
         watch.goes_on()?;
         let face = side.face(at);
-        for (&node, normal) in face.nodes.iter().zip(own_normals(&face)) {
+        let own = at_corners(&face);
+        for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
             (0..3).for_each(|axis| normals[node][axis] += normal[axis]);
         }
+        of_faces.push(own);
     }
     let mut sums = vec![[0.0; 2]; count];
-    for at in 0..side.count() {
+    for (at, own) in of_faces.iter().enumerate() {
         watch.goes_on()?;
         let face = side.face(at);
-        let away = of_face(&face, &normals);
+        let away = of_face((&face, own), &normals);
         for &node in face.nodes {
             let [sum, faces] = &mut sums[node];
             *sum += away;
@@ -81,20 +82,23 @@ fn at_all_nodes(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<f64>, 
     Ok(sums.into_iter().map(|[sum, faces]| sum / f64::max(faces, 1.0)).collect())
 }
 
-/// Unit normals of a face at its nodes; of linear ones that in the middle.
-fn own_normals(face: &Face<'_>) -> [Vector3; MOST_NODES] {
-    match face.kind.mids().next() {
-        Some(_) => at_nodes(face),
-        None => [face.middle_normal(); MOST_NODES],
+/// Unit normals of a face at its corners; of linear ones that in the middle.
+fn at_corners(face: &Face<'_>) -> [Vector3; 4] {
+    if face.kind.mids().next().is_none() {
+        return [face.middle_normal(); 4];
     }
+    let mut normals = [Vector3::zeros(); 4];
+    let corners = &face.kind.places()[..face.kind.corners()];
+    normals.iter_mut().zip(corners).for_each(|(normal, at)| *normal = face.normal(*at));
+    normals
 }
 
-/// How far the true surface stands off a face in the mean, outward, with normals of nodes of any length.
-fn of_face(face: &Face<'_>, normals: &[[f64; 3]]) -> f64 {
-    let (own, corners) = (own_normals(face), face.kind.corners());
+/// How far the true surface stands off a face with its `own` normals in the mean, outward, with normals of nodes of any length.
+fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[[f64; 3]]) -> f64 {
+    let corners = face.kind.corners();
     let steepest = (1.0 - SMOOTH) / (1.0 + SMOOTH);
     // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
-    let slopes: [Vector3; MOST_NODES] = std::array::from_fn(|at| {
+    let slopes: [Vector3; 4] = std::array::from_fn(|at| {
         if at >= corners {
             return Vector3::zeros();
         }

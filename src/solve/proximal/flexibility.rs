@@ -47,23 +47,7 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let contact = &Contact::new(problem);
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    let on_itself = on_itself(contact, settings, &force, monitor);
-    // A stiffness that is hardly told from rounding is left to Newton's method.
-    let is_told = on_itself.is_some();
-    if let Some(found) = on_itself {
-        let solution = found.solution(contact, settings);
-        if solution.status != Status::Stalled {
-            return Ok(solution);
-        }
-        if let Some(rest) = at_rest(contact, settings, &solution) {
-            return Ok(rest);
-        }
-    }
-    let of_stiffness = match settings.method {
-        Method::Auto if !is_told => Settings { method: Method::Newton, ..settings.clone() },
-        _ => settings.clone(),
-    };
-    if let Some(found) = on_stiffness(problem, (&of_stiffness, solve), monitor)? {
+    if let Some(found) = without_springs(contact, (settings, solve), &force, monitor)? {
         return Ok(found);
     }
     let with_start = (settings, start);
@@ -106,6 +90,30 @@ pub fn solve(
         return Ok(found);
     }
     Ok(solution)
+}
+
+/// What Newton's method on `W` itself, and methods on its inverse, make of the problem, if that is the end.
+fn without_springs(
+    contact: &Contact<'_, Flexibility<'_>>,
+    (settings, solve): (&Settings, Solve),
+    force: &[f64],
+    monitor: &mut Monitor<'_>,
+) -> Result<Option<Solution>, Error> {
+    let found = on_itself(contact, settings, force, monitor);
+    if let Some(found) = &found {
+        let solution = found.solution(contact, settings);
+        let ends = solution.status != Status::Stalled;
+        let found = if ends { Some(solution) } else { at_rest(contact, settings, &solution) };
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    // A stiffness that is hardly told from rounding is left to Newton's method.
+    let of_stiffness = match settings.method {
+        Method::Auto if found.is_none() => Settings { method: Method::Newton, ..settings.clone() },
+        _ => settings.clone(),
+    };
+    on_stiffness(contact.problem(), (&of_stiffness, solve), monitor)
 }
 
 /// Why forces do not settle, of a definite `W` nothing. `None`: the sentence of the rounds stands.
