@@ -15,6 +15,9 @@ use signorini::{
     Settings, Solution, State, Status, solve, solve_flexibility,
 };
 
+#[path = "../common/beam.rs"]
+mod beam;
+
 const MU: f64 = 0.3;
 const CALLS: usize = 7;
 
@@ -32,6 +35,13 @@ fn main() {
         for dim in [2, 3] {
             for open in [0.2, 0.7] {
                 dense(dim, pairs, open);
+            }
+        }
+    }
+    for pairs in [64, 200] {
+        for height in [0.01, 0.1] {
+            for open in [0.0, 0.7] {
+                on_floor(pairs, height, open);
             }
         }
     }
@@ -104,6 +114,26 @@ fn islands(dim: usize, pairs: usize, count: usize) -> f64 {
     least(call).0
 }
 
+/// A beam above a floor that is even, or uneven so that about a part `open` of the pairs is open, pressed upon it.
+fn on_floor(pairs: usize, height: f64, open: f64) {
+    let (rng, n) = (&mut Rng::with_seed(3), 2 * pairs);
+    let k = beam::beam(pairs, height);
+    let matrix = Mat::from_fn(n, n, |i, j| k[i + n * j]);
+    let inverse = matrix.llt(Side::Lower).expect("a definite matrix").inverse();
+    let w: Vec<f64> =
+        (0..n * n).map(|at| inverse[((at % n).max(at / n), (at % n).min(at / n))]).collect();
+    let load: Vec<f64> = numbers(rng, n).iter().map(|load| 0.3 + load).collect();
+    let free: Vec<f64> = (0..n).map(|i| (0..n).map(|j| w[i + n * j] * load[j]).sum()).collect();
+    let deepest = free.iter().step_by(2).fold(0.0_f64, |most, q| most.max(*q));
+    let gap: Vec<f64> =
+        (0..pairs).map(|_| if rng.f64() < open { deepest * rng.f64() } else { 0.0 }).collect();
+    let matrix = Mat::from_fn(n, n, |i, j| w[i + n * j]);
+    let begin = Instant::now();
+    matrix.llt(Side::Lower).expect("a definite matrix").inverse();
+    let inversion = begin.elapsed().as_secs_f64();
+    beside(&format!("beam of {height}"), (2, &k, &w), (&load, &free, &gap), inversion);
+}
+
 /// A `W` that falls off with the distance of components, of which about a part `open` of the pairs is open.
 fn dense(dim: usize, pairs: usize, open: f64) {
     let (rng, n) = (&mut Rng::with_seed(3), dim * pairs);
@@ -128,14 +158,25 @@ fn dense(dim: usize, pairs: usize, open: f64) {
             free[dim * pair] + away * rng.f64()
         })
         .collect();
+    beside("falling off", (dim, &k, &w), (&load, &free, &gap), inversion);
+}
+
+/// Prints both forms of bodies of a stiffness and a flexibility beside the time of an inversion.
+fn beside(
+    name: &str,
+    (dim, k, w): (usize, &[f64], &[f64]),
+    (load, free, gap): (&[f64], &[f64], &[f64]),
+    inversion: f64,
+) {
+    let (pairs, n) = (gap.len(), load.len());
     let mu = vec![MU; pairs];
     let law = FrictionLaw::Coulomb(&mu);
     let problem = FlexibilityProblem::from_flexibility(FlexibilityData {
         dim,
         pairs,
-        flexibility: (&w, n),
-        free: &free,
-        gap: &gap,
+        flexibility: (w, n),
+        free,
+        gap,
         law,
         reference_slip: None,
     })
@@ -143,10 +184,10 @@ fn dense(dim: usize, pairs: usize, open: f64) {
     let stiffness = ContactProblem::new(ContactData {
         dim,
         pairs,
-        stiffness: &k,
+        stiffness: k,
         ld: n,
-        load: &load,
-        gap: &gap,
+        load,
+        gap,
         law,
         reference_slip: None,
     })
@@ -161,7 +202,7 @@ fn dense(dim: usize, pairs: usize, open: f64) {
         solve(&stiffness, &settings, None, monitor).expect("valid data")
     });
     println!(
-        "{dim}D, {pairs} pairs, {} open: {:.2}, {:.2}, {:.2}; {:.2}",
+        "{name}, {dim}D, {pairs} pairs, {} open: {:.2}, {:.2}, {:.2}; {:.2}",
         solution.certificate.count(State::Open),
         1e3 * time,
         1e3 * other,

@@ -4,6 +4,7 @@
 
 pub mod all_states;
 pub mod bare;
+pub mod beam;
 pub mod blocks;
 pub mod brick;
 pub mod brick20;

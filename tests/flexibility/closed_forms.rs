@@ -1,6 +1,7 @@
 //! The flexibility form `d = W F + q`: closed forms, a judge in twice the precision, and the stiffness form where
 //! there is one.
 
+use crate::common::beam::beam;
 use crate::common::dense::{Elimination, difference, dot, largest, product};
 use crate::common::flexible::{Case, gram};
 use crate::common::problems::{definite, uniform, vector};
@@ -456,49 +457,12 @@ fn what_no_flexibility_has_is_refused() {
     }
 }
 
-/// The stiffness of a beam from 0 to 1, clamped at both ends, a tenth as high as long, of pairs at its lower fibre: bending by second
-/// differences of the deflection `w`, and the length of the axis, whose displacement is `t + h w' / 2`. Its condition number is 2e8.
-fn beam(pairs: usize) -> Vec<f64> {
-    let (height, step) = (0.1, 1.0 / (pairs + 1) as f64);
-    let size = 2 * pairs;
-    let mut stiffness = vec![0.0; size * size];
-    let mut add = |weight: f64, row: &[(usize, f64)]| {
-        for &(i, a) in row {
-            row.iter().for_each(|&(j, b)| stiffness[i + size * j] += weight * a * b);
-        }
-    };
-    // The components of node `k` of 1 to `pairs`; those beside them are clamped.
-    let at = |k: usize, component: usize, a: f64| {
-        (1..=pairs).contains(&k).then(|| (2 * (k - 1) + component, a))
-    };
-    let axis = |k: usize, sign: f64| {
-        let turn = 0.25 * height / step * sign;
-        let before = k.checked_sub(1).and_then(|k| at(k, 0, -turn));
-        let clamped = k == 0 || k == pairs + 1;
-        let parts = [at(k, 1, sign), before, at(k + 1, 0, turn)];
-        parts.into_iter().flatten().filter(move |_| !clamped).collect::<Vec<_>>()
-    };
-    let bending = height * height / 12.0 / step.powi(3);
-    for k in 0..=pairs + 1 {
-        // Beyond a clamped end the deflection goes on as its mirror image.
-        let [before, after] =
-            [k.checked_sub(1).unwrap_or(1), if k > pairs { pairs } else { k + 1 }];
-        let row = [at(before, 0, 1.0), at(k, 0, -2.0), at(after, 0, 1.0)];
-        let part = if k == 0 || k > pairs { 0.5 } else { 1.0 };
-        add(part * bending, &row.into_iter().flatten().collect::<Vec<_>>());
-        if k <= pairs {
-            add(1.0 / step, &[axis(k + 1, 1.0), axis(k, -1.0)].concat());
-        }
-    }
-    stiffness
-}
-
 /// Beams on a floor: `eta` feels their forces by a flexibility that is 1e-8 of that of the whole, and they are those of the stiffness
 /// form all the same, up to the rounding of `W` times its condition number.
 #[test]
 fn forces_of_beams_are_those_of_the_stiffness_form() {
     let pairs = 100;
-    let (k, n) = (beam(pairs), 2 * pairs);
+    let (k, n) = (beam(pairs, 0.1), 2 * pairs);
     let inverse = Elimination::new(n, &k);
     let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
     let columns: Vec<Vec<f64>> = (0..n).map(|i| inverse.solve(&unit(i)).0).collect();
