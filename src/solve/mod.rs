@@ -51,13 +51,14 @@ use rigid::Balance;
 /// are not unique then, nor is any solution called the only one.
 ///
 /// # Errors
-/// As [`solve()`].
+/// As [`solve()`]; a search for other solutions.
 pub(crate) fn solve_dependent(
     problem: &ContactProblem<'_, DependentRows<'_>>,
     settings: &Settings,
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
+    refuse_search(settings, "pairs that depend on each other do")?;
     let by = (settings, plan::solve as Solve);
     let bytes = || memory(problem.unknowns()) + copies_of(problem);
     check(settings, bytes, ("d", problem, start))?;
@@ -69,6 +70,17 @@ pub(crate) fn solve_dependent(
     let solution =
         solution.unwrap_or_else(|| proximal::solve_dependent(problem, by, start, monitor))?;
     Ok(finished(solution, settings, problem, monitor))
+}
+
+/// Refuses a search for other solutions where there is no stiffness.
+fn refuse_search(settings: &Settings, those: &str) -> Result<(), Error> {
+    if settings.search == Search::Off {
+        return Ok(());
+    }
+    let message = format!(
+        "settings: the search for other solutions needs a stiffness, which {those} not have"
+    );
+    Err(Error::invalid(Argument::Settings, message))
 }
 
 /// Solves a contact problem in flexibility form from the contact forces `start` (zero if `None`).
@@ -94,10 +106,7 @@ pub fn solve_flexibility(
     start: Option<&[f64]>,
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    if settings.search == Search::Others {
-        let message = "settings: the search for other solutions needs a stiffness, which the flexibility form does not have";
-        return Err(Error::invalid(Argument::Settings, message));
-    }
+    refuse_search(settings, "the flexibility form does")?;
     let (form, by) = (&problem.relation().form, (settings, plan::solve as Solve));
     let copy = || match form {
         FlexibilityForm::Dense(_) => copies_of(problem),

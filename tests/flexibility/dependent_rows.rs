@@ -6,7 +6,9 @@ use crate::common::dense::{difference, largest};
 use crate::common::problems::{uniform, vector};
 use crate::rows::{Host, solved, springs};
 use fastrand::Rng;
-use signorini::{FrictionLaw, LoadCase, Monitor, Settings, Solution, State, Status, Uniqueness};
+use signorini::{
+    FrictionLaw, LoadCase, Monitor, Search, Settings, Solution, State, Status, Uniqueness,
+};
 
 /// A node on springs of stiffness 2 along each axis, against rigid planes with these outward normals.
 fn node_on_planes(normals: &[[f64; 2]]) -> Host {
@@ -53,6 +55,19 @@ fn a_call_without_time_ends_where_it_starts() {
     assert_eq!(solution.status, Status::TimeLimit, "{}", solution.message);
     assert_eq!(solution.d, [0.0; 4]);
     assert!(solution.certificate.eta > 0.1, "{:e}", solution.certificate.eta);
+}
+
+/// A question that these models cannot answer is refused, as in full space.
+#[test]
+fn a_search_for_other_solutions_is_refused() {
+    let model = node_on_planes(&CORNER).model().unwrap();
+    let law = FrictionLaw::Coulomb(&[0.3; 2]);
+    let load = &[1.0, -1.0];
+    let case = LoadCase { load, prescribed: None, gap: &[0.0; 2], law, reference_slip: None };
+    let settings = Settings { search: Search::Others, ..Settings::default() };
+    let mut monitor = Monitor::new(&settings, None);
+    let error = model.solve(&case, &settings, None, &mut monitor).unwrap_err();
+    assert!(error.to_string().contains("search for other solutions"), "{error}");
 }
 
 /// Pressed into the corner by (1, -1) nothing moves. Normal and tangential forces of either plane share
