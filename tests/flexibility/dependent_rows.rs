@@ -57,6 +57,53 @@ fn a_call_without_time_ends_where_it_starts() {
     assert!(solution.certificate.eta > 0.1, "{:e}", solution.certificate.eta);
 }
 
+/// Nodes on springs against planes, and against means of two nodes, whose normals and weights are apart by 1e-9 to 1, so that rows
+/// repeat others, nearly do, or do not: bodies that springs hold have a solution whatever friction is, and it balances in the host. To 1e-8:
+/// a hundred times the tolerance. One of a hundred may be left without one, and none is said to have none.
+#[test]
+fn rows_that_nearly_follow_from_others_are_solved() {
+    let power = |rng: &mut Rng, low: f64, high: f64| 10f64.powf(uniform(rng, low, high));
+    let (mut dependent, mut unsolved) = (0, 0);
+    for seed in 0..400 {
+        let rng = &mut Rng::with_seed(seed);
+        let (dim, nodes, pairs) = (rng.usize(2..=3), rng.usize(1..=3), rng.usize(2..=11));
+        let apart = power(rng, -9.0, 0.0);
+        let base = vector(rng, dim * nodes);
+        let (mut rows, mut normals) = (Vec::new(), Vec::new());
+        for _ in 0..pairs {
+            let node = rng.usize(0..nodes);
+            let off = vector(rng, dim);
+            let near = base[dim * node..dim * (node + 1)].iter().zip(off);
+            normals.extend(near.map(|(base, off)| base + apart * off));
+            let share = if rng.bool() { power(rng, -9.0, -0.3) } else { 0.5 };
+            let is_mean = nodes > 1 && rng.u8(0..10) < 3;
+            let mean = || vec![(node, 1.0 - share), ((node + 1) % nodes, share)];
+            rows.push(if is_mean { mean() } else { vec![(node, 1.0)] });
+        }
+        let stiffness = springs(rng, dim * nodes);
+        let host = Host { dim, stiffness, fixed: vec![], rows, normals, tangents: None };
+        let model = host.model().unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        dependent += usize::from(!model.dependent_pairs().is_empty());
+        let load = vector(rng, dim * nodes);
+        let gap: Vec<f64> = (0..pairs).map(|_| uniform(rng, -0.2, 0.1).max(0.0)).collect();
+        let mu: Vec<f64> = (0..pairs).map(|_| uniform(rng, -0.5, 1.0).max(0.0)).collect();
+        let law = FrictionLaw::Coulomb(&mu);
+        let case = LoadCase { load: &load, prescribed: None, gap: &gap, law, reference_slip: None };
+        let settings = Settings::default();
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        match solution.status {
+            Status::Solved => host.assert_balanced(&model, &case, &solution, 1e-8),
+            status => {
+                assert_eq!(status, Status::Stalled, "seed {seed}: {}", solution.message);
+                unsolved += 1;
+            }
+        }
+    }
+    assert!(dependent > 300, "{dependent}");
+    assert!(unsolved <= 4, "{unsolved}");
+}
+
 /// A question that these models cannot answer is refused, as in full space.
 #[test]
 fn a_search_for_other_solutions_is_refused() {
