@@ -35,8 +35,8 @@ pub struct Solved {
     pub dependent: Vec<Option<Expression>>,
 }
 
-/// Solves `equations` for unknowns that may be chosen, each divided by `least` of its coefficients at least. Coefficients of each unknown are compared beside its `unit`: those of
-/// angles are arms, in the host's unit of length.
+/// Solves `equations` for unknowns that may be chosen. An equation of which at most `least` of its largest coefficient is left
+/// gives none. Coefficients of each unknown are compared beside its `unit`: those of angles are arms, in the host's unit of length.
 pub fn solve(equations: &[Terms], units: &[f64], may_choose: &[bool], least: f64) -> Solved {
     let in_units = |equation: &Terms| equation.iter().map(|&(k, a)| (k, a / units[k])).collect();
     let equations: Vec<Terms> = equations.iter().map(in_units).collect();

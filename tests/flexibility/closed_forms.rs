@@ -8,7 +8,7 @@ use crate::common::problems::{definite, uniform, vector};
 use fastrand::Rng;
 use signorini::{
     ContactData, ContactProblem, FlexibilityData, FlexibilityProblem, FrictionLaw, Method, Monitor,
-    Search, Settings, State, Status, Uniqueness, solve, solve_flexibility,
+    Search, Settings, Solution, State, Status, Uniqueness, solve, solve_flexibility,
 };
 
 /// The flexibility of a node on springs of stiffness 2 along each axis against planes with these outward
@@ -19,6 +19,30 @@ fn node_on_planes(normals: &[[f64; 2]], load: [f64; 2], mu: f64) -> Case {
     let w = gram(&rows).iter().map(|w| w / 2.0).collect();
     let q = rows.iter().map(|row| dot(row, &load) / 2.0).collect();
     Case::new(2, w, q, mu)
+}
+
+/// `W`, column-major, of `n` components whose stiffness is eliminated.
+fn flexibility(stiffness: &Elimination, n: usize) -> Vec<f64> {
+    let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
+    let columns: Vec<Vec<f64>> = (0..n).map(|i| stiffness.solve(&unit(i)).0).collect();
+    (0..n * n).map(|at| 0.5 * (columns[at / n][at % n] + columns[at % n][at / n])).collect()
+}
+
+/// The solution of a case in stiffness form, with its `K` and its loads.
+fn in_stiffness_form(case: &Case, stiffness: &[f64], load: &[f64]) -> Solution {
+    let problem = ContactProblem::new(ContactData {
+        dim: case.dim,
+        pairs: case.gap.len(),
+        stiffness,
+        ld: load.len(),
+        load,
+        gap: &case.gap,
+        law: FrictionLaw::Coulomb(&case.mu),
+        reference_slip: Some(&case.slip0),
+    })
+    .unwrap();
+    let settings = Settings { proof: false, ..Settings::default() };
+    solve(&problem, &settings, None, &mut Monitor::new(&settings, None)).unwrap()
 }
 
 #[test]
@@ -32,28 +56,12 @@ fn definite_flexibility_has_the_solution_of_the_stiffness_form() {
         let k = definite(rng, n, 100.0);
         let load = vector(rng, n);
         let inverse = Elimination::new(n, &k);
-        let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
-        let columns: Vec<Vec<f64>> = (0..n).map(|i| inverse.solve(&unit(i)).0).collect();
-        let w = (0..n * n).map(|at| 0.5 * (columns[at / n][at % n] + columns[at % n][at / n]));
-        let mut case = Case::new(dim, w.collect(), inverse.solve(&load).0, 0.0);
+        let mut case = Case::new(dim, flexibility(&inverse, n), inverse.solve(&load).0, 0.0);
         case.gap.fill_with(|| uniform(rng, -0.3, 0.5));
         let most = [0.1, 0.4][round % 2];
         case.mu.fill_with(|| uniform(rng, 0.0, most));
         case.slip0.fill_with(|| uniform(rng, -0.2, 0.2));
-        let stiffness = ContactProblem::new(ContactData {
-            dim,
-            pairs,
-            stiffness: &k,
-            ld: n,
-            load: &load,
-            gap: &case.gap,
-            law: FrictionLaw::Coulomb(&case.mu),
-            reference_slip: Some(&case.slip0),
-        })
-        .unwrap();
-        let settings = Settings { proof: false, ..Settings::default() };
-        let monitor = &mut Monitor::new(&settings, None);
-        let other = solve(&stiffness, &settings, None, monitor).unwrap();
+        let other = in_stiffness_form(&case, &k, &load);
         let solution = case.solved();
         // Where friction allows several solutions the forms may find different ones.
         if other.uniqueness == Uniqueness::Unique || case.mu.iter().all(|mu| *mu < 0.1) {
@@ -464,10 +472,7 @@ fn forces_of_beams_are_those_of_the_stiffness_form() {
     let pairs = 100;
     let (k, n) = (beam(pairs, 0.1), 2 * pairs);
     let inverse = Elimination::new(n, &k);
-    let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
-    let columns: Vec<Vec<f64>> = (0..n).map(|i| inverse.solve(&unit(i)).0).collect();
-    let w = (0..n * n).map(|at| 0.5 * (columns[at / n][at % n] + columns[at % n][at / n]));
-    let w: Vec<f64> = w.collect();
+    let w = flexibility(&inverse, n);
     for seed in 0..4 {
         let rng = &mut Rng::with_seed(seed);
         // Pressed upon the floor in the mean.
@@ -475,20 +480,7 @@ fn forces_of_beams_are_those_of_the_stiffness_form() {
         load.iter_mut().step_by(2).for_each(|load| *load += 0.3);
         let mut case = Case::new(2, w.clone(), inverse.solve(&load).0, 0.3);
         case.gap.fill(0.0);
-        let stiffness = ContactProblem::new(ContactData {
-            dim: 2,
-            pairs,
-            stiffness: &k,
-            ld: n,
-            load: &load,
-            gap: &case.gap,
-            law: FrictionLaw::Coulomb(&case.mu),
-            reference_slip: None,
-        })
-        .unwrap();
-        let settings = Settings { proof: false, ..Settings::default() };
-        let monitor = &mut Monitor::new(&settings, None);
-        let other = solve(&stiffness, &settings, None, monitor).unwrap().certificate.force;
+        let other = in_stiffness_form(&case, &k, &load).certificate.force;
         let force = case.solved().certificate.force;
         let error = largest(&difference(&force, &other)) / largest(&other);
         assert!(error < 1e-6, "seed {seed}: {error:e}");

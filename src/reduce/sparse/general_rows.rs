@@ -105,8 +105,8 @@ fn dependent(solved: &Solved, pair: usize, dim: usize, axis: usize) -> Option<&E
 }
 
 /// The components of a pair that supports hold along directions, with its frame turned exactly along them: none if none
-/// are, or if one of its equations follows from those of other pairs or has other degrees of freedom left. A pair whose nodes are fixed along every axis
-/// rests, as where a surface ends at a wall.
+/// are, or if one of its equations follows from those of other pairs or has other degrees of freedom left. A pair whose
+/// nodes are fixed along every axis rests, as where a surface ends at a wall.
 fn held_components(
     (solved, places): (&Solved, &[Option<usize>]),
     (pair, dim): (usize, usize),
