@@ -385,7 +385,8 @@ struct signorini_model_data {
      */
     int64_t memory;
     int32_t kind;         /**< SIGNORINI_MODEL_... */
-    int32_t dependent;    /**< Number of pairs whose rows follow from other pairs or supports. */
+    /** Number of pairs whose rows (nearly) follow from other pairs or supports. */
+    int32_t dependent;
     /**
      * Stiffness in relative displacements, N columns of N entries. NULL if kind is not
      * SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.
@@ -857,12 +858,12 @@ struct signorini_operator {
 };
 
 /**
- * Makes a model of your functions. They run on the threads that call the library. Load cases are
- * solved as in full space.
+ * Makes a model of your functions. They run on the calling threads. Load cases are solved as in
+ * full space.
  *
- * With products and solutions of the pairs H = N: loads and displacements are the relative ones. A
- * load case takes up to 160 products (2D: 110) with each of K_rel and W, or 70 solutions with
- * held.
+ * With products and solutions of the pairs H = N: loads and displacements are relative. A load
+ * case mostly takes up to 160 products (2D: 110) with each of K_rel and W, or 70 solutions with
+ * held; bad conditioning, more.
  *
  * With unknowns set A is symmetric, positive semi-definite, and takes the place of a sparse
  * matrix: supports and the turn to the frames of the pairs are in it. A load case takes some 100

@@ -79,7 +79,7 @@ pub struct SignoriniModelData {
     pub memory: i64,
     /// SIGNORINI_MODEL_...
     pub kind: i32,
-    /// Number of pairs whose rows follow from other pairs or supports.
+    /// Number of pairs whose rows (nearly) follow from other pairs or supports.
     pub dependent: i32,
     /// Stiffness in relative displacements, N columns of N entries. NULL if kind is not
     /// SIGNORINI_MODEL_STIFFNESS, or pairs depend on each other.
