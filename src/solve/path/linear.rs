@@ -77,8 +77,8 @@
 //! *The walks.* First on the pairs in question alone (`newton::uncertain_pairs`), where an event costs
 //! little: their matrix is definite too. Swept starts are near a solution, and most of their walks are short, so that
 //! several are tried, after more and more sweeps: by theorem I without its premise. Then walks on all pairs, from
-//! where those in question have come to: from swept starts and from sure ones, H, which take about one event a pair; at
-//! last, if rounding spoils them, from all pairs pressed on their obstacles, with factorisations at nearly every event
+//! where those in question have come to: from swept starts, from all pairs pressed on their obstacles, and from a sure
+//! start, H; at last, if rounding spoils them, from pressed pairs with factorisations at nearly every event
 //! (`linear_start`). Starts are moved at random by 1e-7 of the loads, always by
 //! the same numbers: symmetric meshes have ties. At `s = 1` nothing is left of that, and Newton's method refines from
 //! the pieces found there.
@@ -184,7 +184,7 @@ mod tests {
     use crate::law::Contact;
     use crate::problem::{ContactProblem, FrictionLaw};
     use crate::settings::Settings;
-    use crate::solve::path::linear_start::Start;
+    use crate::solve::path::linear_start::{Start, walk};
 
     /// `B Bᵀ` and a part of the identity, so that no two columns are alike: definite, of a condition
     /// about 1e4 at the least part.
@@ -215,7 +215,7 @@ mod tests {
             let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
             let mut monitor = Monitor::new(&settings, None);
-            let attempt = [Attempt { sweeps: 30, start: Start::Sure, events: 10.0 }];
+            let attempt = [walk(30, Start::Sure, 10.0)];
             let candidate = solve(&Call::new(&contact, &settings), &attempt, &mut monitor);
             let holds = candidate.certificate(&contact).holds(settings.tolerance);
             assert!(holds, "seed {seed}: {:?}", candidate.ending);

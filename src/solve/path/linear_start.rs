@@ -16,9 +16,9 @@ const LEAST: usize = 100;
 /// arrive take fewer.
 const SHORT: f64 = 0.5;
 
-/// Events of a walk from a sure start, for each pair, at first: after a hundred sweeps and more most take between 0.6 and
-/// 1.2, and others more than 4.
-const SURE: f64 = 1.2;
+/// Events of a walk from pressed pairs, for each pair, at first: where the pairs of a beam stay closed, sweeps lead far
+/// away, while each pair leaves its state about once on the way from this start.
+const ONCE: f64 = 2.0;
 
 /// Events of a walk that no other kind of start follows.
 const LONG: f64 = 10.0;
@@ -38,7 +38,7 @@ pub enum Start {
     Swept,
     /// Sure coordinates: no others share their loads.
     Sure,
-    /// Coordinates of pairs that are pressed on their obstacles and stick, where rounding has spoilt the walks before.
+    /// Coordinates of pairs that are pressed on their obstacles and stick.
     Pressed,
 }
 
@@ -50,19 +50,21 @@ pub struct Attempt {
     pub start: Start,
     /// Events after which it is given up, for each pair.
     pub events: f64,
+    /// True where rounding has spoilt the walks before: it factorises at nearly every event.
+    pub is_careful: bool,
 }
 
 impl Attempt {
     /// How far the walk may go with so many pairs.
     pub fn rules(&self, pairs: usize) -> Rules {
         let of = |part: f64| (part * pairs as f64) as usize;
-        let age = if self.start == Start::Pressed { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
+        let age = if self.is_careful { CAREFUL_AGE } else { LEAST_AGE.max(of(AGE)) };
         Rules { most: LEAST.max(of(self.events)), age }
     }
 }
 
-const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
-    Attempt { sweeps, start, events }
+pub const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
+    Attempt { sweeps, start, events, is_careful: false }
 }
 
 /// Walks on all pairs, from the best iterate of Newton's method or from the end of walks on the pairs in question. The
@@ -72,9 +74,9 @@ pub const ATTEMPTS: [Attempt; 6] = [
     walk(0, Start::Swept, SHORT),
     walk(30, Start::Swept, SHORT),
     walk(70, Start::Swept, SHORT),
-    walk(100, Start::Sure, SURE),
-    walk(300, Start::Sure, LONG),
-    walk(0, Start::Pressed, LONG),
+    walk(0, Start::Pressed, ONCE),
+    walk(400, Start::Sure, LONG),
+    Attempt { is_careful: true, ..walk(0, Start::Pressed, LONG) },
 ];
 
 /// Walks where thresholds are given, so that every start is sure.
