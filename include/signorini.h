@@ -291,7 +291,7 @@ typedef struct signorini_model signorini_model;
  * Makes a model of your whole sparse stiffness matrix with contact pairs, for any number of bodies
  * and contact zones. H = K->size.
  *
- * If the condensed matrix needs more than memory_limit, or than the system has, the model is in
+ * If the condensed model needs more than memory_limit, or than the system has, the model is in
  * full space (data.kind): load cases are solved by Newton's method; methods other than AUTO and
  * NEWTON, search and settings.proof are refused. Dependent pairs are condensed.
  *

@@ -33,8 +33,8 @@ use crate::reduce::{
 };
 use crate::settings::Settings;
 use crate::solve::{
-    CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_limit, check_start, solve,
-    solve_dependent, solve_flexibility, solve_matrix_free,
+    CAUSES, CasePast, NO_EQUILIBRIUM, Solution, Status, check_limit, check_start, memory_of_case,
+    solve, solve_dependent, solve_flexibility, solve_matrix_free,
 };
 
 /// A structure, reduced to its contact pairs. It does not change: several threads may use it.
@@ -60,7 +60,7 @@ impl Model {
     }
 
     /// As [`Self::sparse`], within the limits of `monitor` on memory and time, with its callback and its threads. If
-    /// the condensed matrix needs more memory than is allowed or than the system has, or if [`Settings::full_space`] is
+    /// the condensed model needs more memory than is allowed or than the system has, or if [`Settings::full_space`] is
     /// set, the model is in full space, as [`Self::kind`] tells: nothing is condensed, and load cases are solved by products and solutions with the sparse
     /// matrix; pairs that depend on each other are condensed all the same. A condensation is done in the host's
     /// `order` of elimination if there is one: each degree of freedom once, the first to be eliminated first. Fixed
@@ -77,7 +77,7 @@ impl Model {
     ) -> Result<Self, Error> {
         let Monitor { full_space, reserve, .. } = *monitor;
         let ask = &mut |share, memory| monitor.reducing(share, memory);
-        let control = Control { order, full_space, reserve, ask };
+        let control = Control { order, full_space, reserve, case: memory_of_case, ask };
         let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()
     }

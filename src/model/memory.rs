@@ -2,7 +2,7 @@
 
 use super::{BLOCK, Model};
 use crate::problem::{Dependence, FlexibilityForm, FrictionLaw};
-use crate::solve::{memory, memory_matrix_free, memory_of_flexibility, memory_of_ties};
+use crate::solve::{memory_of_case, memory_of_flexibility, memory_of_ties};
 
 /// Vectors of the host's size that each load case of a block takes while it is condensed or recovered.
 const VECTORS: u64 = 10;
@@ -13,13 +13,10 @@ impl Model {
         if let Some(form) = self.reduction.flexibility() {
             return memory_of_flexibility(&form);
         }
-        if let Some(inner) = self.reduction.inner_unknowns() {
-            let unknowns = inner + self.dim * self.pairs;
-            return self.reduction.factor_bytes() + memory_matrix_free(unknowns);
-        }
         // Dependent rows are solved with springs between bodies and contact.
         let springs = self.reduction.dependence().map_or(0, Dependence::variables);
-        memory(self.dim * self.pairs + springs)
+        let case = memory_of_case(self.reduction.inner_unknowns(), self.dim * self.pairs + springs);
+        self.reduction.factor_bytes() + case
     }
 
     /// Most bytes that a load case under this law takes beyond [`Self::memory`].

@@ -34,7 +34,7 @@ use crate::settings::{Search, Settings};
 
 pub use lcp::{LcpSolution, solve_lcp};
 pub(crate) use operator::{
-    Case as MatrixFreeCase, CasePast, certify as certify_matrix_free, memory as memory_matrix_free,
+    Case as MatrixFreeCase, CasePast, certify as certify_matrix_free, memory_of_case,
     solve as solve_matrix_free,
 };
 pub(crate) use plan::memory_of_ties;

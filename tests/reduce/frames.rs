@@ -11,7 +11,8 @@ fn reduced(
     pairs: &ContactPairs<'_>,
 ) -> SparseReduction {
     let go_on = &mut |_, _| Ok(());
-    let control = Control { order: None, full_space: false, reserve: |_| true, ask: go_on };
+    let control =
+        Control { order: None, full_space: false, reserve: |_| true, case: |_, _| 0, ask: go_on };
     SparseReduction::new(matrix, fixed, pairs, control).unwrap()
 }
 

@@ -230,7 +230,7 @@ class Model(Remade):
         order: order of elimination, each dof number once; None: chosen.  settings: progress,
         time_limit (seconds), memory_limit (bytes), threads and full_space; a limit that is passed,
         or a progress function that cancels, raises SignoriniError. With full_space, or if the
-        condensed matrix needs more than memory_limit, none is formed: there is no stiffness then.
+        condensed model needs more than memory_limit, none is made: there is no stiffness then.
         """
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         pairs = ContactPairs(slaves, normals, masters, weights, tangents, rows, equations)

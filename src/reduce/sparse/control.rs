@@ -15,6 +15,9 @@ pub struct Control<'a> {
     pub full_space: bool,
     /// Obtains so many bytes for a condensed matrix before it is begun; `false`: the system refuses them.
     pub reserve: fn(u64) -> bool,
+    /// Bytes that a load case takes beside the model and its factor, of so many inner unknowns, if it is in full space, and
+    /// components of pairs.
+    pub case: fn(Option<usize>, usize) -> u64,
     /// Asked between steps.
     pub ask: &'a mut Ask<'a>,
 }

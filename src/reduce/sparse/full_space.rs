@@ -45,18 +45,19 @@ struct Factor {
 
 impl FullSpace {
     /// Takes the lower triangle of the matrix, whose first `inner` unknowns are no relative displacements; pairs have
-    /// `dim` components.
+    /// `dim` components, and a load case takes `case` bytes beside the factor.
     pub(super) fn new(
         matrix: Csc,
         inner: usize,
         dim: usize,
+        case: u64,
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
         let cholesky = Plan::new(&matrix, matrix.ncols(), None, &mut |share| asked.goes_on(share))?;
         let entry = size_of::<usize>() + size_of::<f64>();
         let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
         let factor_bytes = cholesky.bytes + copy as u64;
-        asked.needs(factor_bytes)?;
+        asked.needs(factor_bytes.saturating_add(case))?;
         let units: Vec<f64> =
             (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);

@@ -81,8 +81,8 @@ impl SparseReduction {
             })?;
         let free = &variables.free;
         let rank: Option<Vec<usize>> = rank.map(|rank| free.iter().map(|&dof| rank[dof]).collect());
-        let (rank, reserve) = (rank.as_deref(), control.reserve);
-        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, reserve };
+        let (rank, reserve, case) = (rank.as_deref(), control.reserve, control.case);
+        let parts = Parts { inner: free.len(), dim: pairs.dim, rank, own, reserve, case };
         let choice = (control.full_space, dependent.is_none());
         let mut engine = Engine::new(transformed, &parts, choice, &mut asked)
             .map_err(|failure| asked.ended.unwrap_or_else(|| refused(&variables, own, failure)))?;
@@ -239,6 +239,7 @@ struct Parts<'a> {
     /// Each pair has a slave of its own.
     own: bool,
     reserve: fn(u64) -> bool,
+    case: fn(Option<usize>, usize) -> u64,
 }
 
 impl Engine {
@@ -249,23 +250,24 @@ impl Engine {
         }
     }
 
-    /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix needs more
-    /// memory than is allowed or than the system has, and it is `possible`.
+    /// Condenses `matrix`, or leaves it as it is: if that is `wanted`, or if the condensed matrix or a load case with it needs
+    /// more memory than is allowed or than the system has, and it is `possible`.
     fn new(
         matrix: Csc,
         parts: &Parts<'_>,
         (wanted, possible): (bool, bool),
         asked: &mut Asked<'_, '_>,
     ) -> Result<Self, Failure> {
+        let components = matrix.ncols() - parts.inner;
         let is_condensed = !(wanted && possible);
-        let has_room = is_condensed && (parts.reserve)(memory(matrix.ncols() - parts.inner));
+        let has_room = is_condensed && (parts.reserve)(memory(components));
         if is_condensed && !(has_room || possible) {
             return Err(Failure::OutOfMemory);
         }
         if has_room {
             let plan =
                 Plan::new(&matrix, parts.inner, parts.rank, &mut |done| asked.goes_on(done))?;
-            if asked.needs(plan.bytes).is_ok() {
+            if asked.needs(plan.bytes.max((parts.case)(None, components))).is_ok() {
                 // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
                 let always = !parts.own;
                 return SparseSchur::new(plan, matrix, always, &mut |done| asked.goes_on(done))
@@ -278,7 +280,8 @@ impl Engine {
             }
             (asked.memory, asked.ended) = (0, None);
         }
-        FullSpace::new(matrix, parts.inner, parts.dim, asked)
+        let case = (parts.case)(Some(parts.inner), components);
+        FullSpace::new(matrix, parts.inner, parts.dim, case, asked)
             .map(|space| Engine::FullSpace(Box::new(space)))
     }
 }

@@ -311,7 +311,7 @@ fn describe(
 ) -> Result<(), Error> {
     // If others are not found in time, the motion of the proof stands for all.
     let motions = ended(FreeMotions::of(bodies, contact.dim(), monitor))?.unwrap_or_default();
-    let fits = condensed::fits(contact.unknowns(), bodies.operator.units().len());
+    let fits = condensed::fits(contact.unknowns(), (bodies.operator.inner(), contact.unknowns()));
     let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
     let solve = fits.then_some(plan::solve as Solve);
     rigid::describe(contact, solution, balance, solve, monitor)

@@ -26,9 +26,10 @@ use crate::solve::result::{Call, Ending, Solution, Status};
 /// Most components of `C`: a system of the dense problem takes a second, and it may take a thousand of them.
 const MOST_COMPONENTS: usize = 3000;
 
-/// True if a dense problem of so many components fits into the time and the memory of one of so many unknowns.
-pub fn fits(components: usize, unknowns: usize) -> bool {
-    components <= MOST_COMPONENTS && memory_of_components(components) <= room(unknowns)
+/// True if a dense problem of so many components fits into the time and the memory of one of so many inner unknowns and
+/// components in all.
+pub fn fits(components: usize, (inner, all): (usize, usize)) -> bool {
+    components <= MOST_COMPONENTS && memory_of_components(components) <= room(inner, all)
 }
 
 /// Goes on from a try that has failed.
@@ -48,7 +49,8 @@ pub fn solve(
         false => (0..laws.len()).collect(),
     };
     let mut at = best.point.at.clone();
-    while fits(equations.contact.dim() * chosen.len(), equations.load.len()) {
+    let sizes = (equations.inner, equations.contact.unknowns());
+    while fits(equations.contact.dim() * chosen.len(), sizes) {
         let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
         let found = condensed.solved(equations, &chosen, &at, monitor)?;
         let (joins, solved): (Vec<bool>, Option<Point>) = match found {

@@ -20,5 +20,5 @@ mod system;
 mod thresholds;
 
 pub use case::{Case, certify, solve};
-pub use memory::memory;
+pub use memory::memory_of_case;
 pub use past::CasePast;
