@@ -21,6 +21,7 @@ pub use candidates::solve as on_candidates;
 pub use descent::{AIM, Goal, NewtonOutcome, NormalMap, ROUNDING_OF_ETA, solve as descend};
 pub use ended::Ended;
 pub use iteration::{from_pieces, solve as newton_from};
+pub use one_pair::solve as of_one_pair;
 pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::solve_part;
 

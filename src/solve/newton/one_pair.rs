@@ -16,7 +16,7 @@ use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// The solution of one pair in the plane, up to rounding of its forces, if some steps from the start lead there. If there is
 /// no start, the pair is closed without slip.
-pub(super) fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Candidate> {
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Candidate> {
     let contact = call.contact;
     let ([law], [n, t]) = (contact.pairs(), contact.problem().load()) else { return None };
     let equations = TwoEquations { law, matrix: contact.problem().stiffness(), load: [*n, *t] };
