@@ -5,15 +5,11 @@ use super::candidates::{self, Core};
 use crate::law::{LevelledTangents, references};
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
-use crate::solve::result::{Call, Ending};
+use crate::solve::result::{Call, Candidate, Ending};
 
-/// Solves a problem in space on levelled tangents: the displacements on those of the problem, and the systems that were
-/// factorised. `None` where no pair needs them, and where that fails.
-pub fn solve(
-    call: &Call<'_>,
-    monitor: &mut Monitor<'_>,
-    core: &mut Core<'_>,
-) -> Option<(Vec<f64>, u64)> {
+/// Solves a problem in space on levelled tangents: what that finds, on the tangents of the problem. `None` where no pair needs
+/// them, and where that fails.
+pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Option<Candidate> {
     let (contact, problem) = (call.contact, call.contact.problem());
     let of_pair = |(pair, law)| LevelledTangents::of(law, problem.tangential_block(pair));
     let tangents = || contact.pairs().iter().enumerate().map(of_pair);
@@ -33,8 +29,13 @@ pub fn solve(
     let start = call.start.map(|start| changed(start, &tangents, LevelledTangents::levelled));
     let call = Call { contact: &levelled, settings: call.settings, start: start.as_deref() };
     let found = candidates::solve(&call, monitor, core);
-    let d = || changed(found.d(), &tangents, LevelledTangents::displacement);
-    (found.ending == Ending::Done).then(|| (d(), found.effort.factorisations))
+    let on_own = || {
+        let d = changed(found.d(), &tangents, LevelledTangents::displacement);
+        let mut candidate = Candidate::of_displacements(contact, d, Ending::Done);
+        (candidate.effort, candidate.orientation) = (found.effort, found.orientation);
+        candidate
+    };
+    (found.ending == Ending::Done).then(on_own)
 }
 
 /// A vector with the tangential parts of pairs changed.

@@ -58,9 +58,11 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let levelled = if in_space { levelled::solve(call, monitor, core) } else { None };
     match levelled {
         None => on_candidates(call, monitor, core),
-        Some((d, systems)) => {
-            let mut candidate = on_candidates(&call.from(&d), monitor, core);
-            candidate.effort.factorisations += systems;
+        // A series goes on from the equations of its own tangents.
+        Some(found) if !is_series && found.certificate(contact).eta <= AIM * tolerance => found,
+        Some(found) => {
+            let mut candidate = on_candidates(&call.from(found.d()), monitor, core);
+            candidate.effort.factorisations += found.effort.factorisations;
             candidate
         }
     }
