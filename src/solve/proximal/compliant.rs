@@ -3,7 +3,6 @@
 use super::rounds::{COMPLIANCE, InSeries, RANGE, changed};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::watched::BLOCK;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::{Flexibility, Relation};
 
@@ -23,25 +22,10 @@ impl<'p> Springs<'p> {
         by_all_means: bool,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Self>, Stop> {
-        Self::of(relation, COMPLIANCE, by_all_means, monitor)
-    }
-
-    /// No springs, for methods of all kinds; `None` if `W` is singular.
-    pub fn none(
-        relation: &'p Flexibility<'p>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Self>, Stop> {
-        Self::of(relation, 0.0, true, monitor)
-    }
-
-    fn of(
-        relation: &'p Flexibility<'p>,
-        compliance: f64,
-        by_all_means: bool,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Self>, Stop> {
-        let stiffness = stiffness(relation, compliance, monitor)?;
-        Ok(stiffness.map(|stiffness| Springs { relation, compliance, stiffness, by_all_means }))
+        let stiffness = stiffness(relation, COMPLIANCE, monitor)?;
+        let first =
+            |stiffness| Springs { relation, compliance: COMPLIANCE, stiffness, by_all_means };
+        Ok(stiffness.map(first))
     }
 }
 
@@ -124,7 +108,7 @@ fn roots(relation: &Flexibility<'_>) -> Vec<f64> {
 }
 
 /// The inverse of the scaled `D^½ W D^½ + e`, scaled back; `None` if there is none. `Err`: there is no time for it.
-fn stiffness(
+pub fn stiffness(
     relation: &Flexibility<'_>,
     compliance: f64,
     monitor: &mut Monitor<'_>,
@@ -134,18 +118,9 @@ fn stiffness(
     let Some(factor) = factor(relation, (compliance, SINGULAR), monitor)? else {
         return Ok(None);
     };
-    let mut inverse = vec![0.0; n * n];
-    inverse.iter_mut().step_by(n + 1).for_each(|entry| *entry = 1.0);
-    for columns in inverse.chunks_mut((BLOCK * n).max(1)) {
-        monitor.affords(2.0 * (n * columns.len()) as f64)?;
-        factor.solve(columns);
-    }
-    for j in 0..n {
-        for i in j..n {
-            let mean = 0.5 * (inverse[i + n * j] + inverse[j + n * i]);
-            let scaled = root[i] * mean * root[j];
-            (inverse[i + n * j], inverse[j + n * i]) = (scaled, scaled);
-        }
+    let mut inverse = factor.inverse(|operations| monitor.affords(operations))?;
+    for (column, root_of_column) in inverse.chunks_exact_mut(n.max(1)).zip(&root) {
+        column.iter_mut().zip(&root).for_each(|(entry, root)| *entry *= root * root_of_column);
     }
     Ok(inverse.iter().all(|entry| entry.is_finite()).then_some(inverse))
 }

@@ -1,7 +1,8 @@
 //! The flexibility form `d = W F + q`, with a `W` that may be singular.
 //!
-//! A definite `W` is left to Newton's method on `W` itself ([`super::on_flexibility`]), and where that fails to all methods
-//! on the stiffness `W⁻¹`. Where that fails, and where `W` is singular, rounds follow; and where they end without a solution a few
+//! A definite `W` is left to Newton's method on `W` itself ([`super::on_flexibility`]) as long as its systems, which are those of
+//! closed pairs, take no more operations than `W⁻¹` and a solution on it; then to all methods on the stiffness `W⁻¹`, from whose forces Newton's method on `W`
+//! goes on. Where that fails, and where `W` is singular, rounds follow; and where they end without a solution a few
 //! pairs are solved from points that are drawn ([`super::drawn`]).
 //!
 //! Forces that `W` does not feel are not determined by displacements. So each pair gets a soft spring in
@@ -16,11 +17,11 @@
 //! them: rounds with an `e` of its size run away from the solution, and harder springs may leave Newton's method
 //! without one.
 
-use super::compliant::{Springs, is_definite, is_indefinite};
+use super::compliant::{Springs, is_definite, is_indefinite, stiffness};
 use super::drawn::drawn;
 use super::growth::sentence;
-use super::on_flexibility::{LawPoint, OnFlexibility};
-use super::rounds::{InSeries, RoundsFound, rounds, solve as solve_by_rounds};
+use super::on_flexibility::{DEAR, LawPoint, OnFlexibility};
+use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
 use super::step::{ended, step};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, bounded, exceed_gaps};
@@ -99,21 +100,52 @@ fn without_springs(
     force: &[f64],
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Solution>, Error> {
-    let found = on_itself(contact, settings, force, monitor);
-    if let Some(found) = &found {
-        let solution = found.solution(contact, settings);
-        let ends = solution.status != Status::Stalled;
-        let found = if ends { Some(solution) } else { at_rest(contact, settings, &solution) };
-        if found.is_some() {
-            return Ok(found);
-        }
+    let equations = on_itself(contact, settings, monitor);
+    let is_definite = equations.is_some();
+    let mut equations =
+        equations.unwrap_or_else(|| OnFlexibility::new(contact, true)).while_cheap();
+    let (tolerance, begin) = (settings.tolerance, equations.coordinates(force));
+    let found = is_definite.then(|| equations.solve(begin, tolerance, monitor));
+    if let Some(ended) = found.as_ref().and_then(|found| settled(contact, settings, found)) {
+        return Ok(Some(ended));
     }
     // A stiffness that is hardly told from rounding is left to Newton's method.
-    let of_stiffness = match settings.method {
-        Method::Auto if found.is_none() => Settings { method: Method::Newton, ..settings.clone() },
-        _ => settings.clone(),
+    let method = match settings.method {
+        Method::Auto if !is_definite => Method::Newton,
+        method => method,
     };
-    on_stiffness(contact.problem(), (&of_stiffness, solve), monitor)
+    let settings = &Settings { method, ..settings.clone() };
+    let on_inverse = on_stiffness(contact.problem(), (settings, solve), monitor)?;
+    let mut equations = equations.at_any_cost();
+    let from_inverse = |found: &Solution| equations.coordinates(&found.certificate.force);
+    let begins = [
+        on_inverse.as_ref().map(from_inverse),
+        found.filter(|found| found.ending == DEAR).map(|found| found.point.y),
+    ];
+    for begin in begins.into_iter().flatten() {
+        let again = equations.solve(begin, tolerance, monitor);
+        if let Some(mut ended) = settled(contact, settings, &again) {
+            if let Some(on_inverse) = on_inverse {
+                ended.method = on_inverse.method;
+                ended.factorisations += on_inverse.factorisations;
+            }
+            return Ok(Some(ended));
+        }
+    }
+    Ok(None)
+}
+
+/// The result of Newton's method on `W`, or rest, if that is the end.
+fn settled(
+    contact: &Contact<'_, Flexibility<'_>>,
+    settings: &Settings,
+    found: &NewtonOutcome<LawPoint>,
+) -> Option<Solution> {
+    let solution = found.solution(contact, settings);
+    match solution.status {
+        Status::Stalled => at_rest(contact, settings, &solution),
+        _ => Some(solution),
+    }
 }
 
 /// Why forces do not settle, of a definite `W` nothing. `None`: the sentence of the rounds stands.
@@ -153,42 +185,31 @@ fn at_a_wall(problem: &FlexibilityProblem<'_>) -> Option<Vec<f64>> {
     })
 }
 
-/// What Newton's method makes of a definite `W` from contact forces `force`; `None` where `W` is not definite, another
-/// method is chosen, or there is no time.
-pub fn on_itself(
-    contact: &Contact<'_, Flexibility<'_>>,
+/// The equations of a definite `W` for Newton's method; `None` where `W` is not definite, another method is chosen, or there is
+/// no time.
+pub fn on_itself<'c, 'p>(
+    contact: &'c Contact<'p, Flexibility<'p>>,
     settings: &Settings,
-    force: &[f64],
     monitor: &mut Monitor<'_>,
-) -> Option<NewtonOutcome<LawPoint>> {
-    if !takes_newton(settings) || !is_definite(contact.problem().relation(), monitor) {
-        return None;
-    }
-    let mut equations = OnFlexibility::new(contact, true);
-    let begin = equations.coordinates(force);
-    Some(equations.solve(begin, settings.tolerance, monitor))
+) -> Option<OnFlexibility<'c, 'p>> {
+    let fits = takes_newton(settings) && is_definite(contact.problem().relation(), monitor);
+    fits.then(|| OnFlexibility::new(contact, true))
 }
 
-/// The solution on the stiffness `K = W⁻¹`, with the load `K q`, and what rounds without springs make of it on `W`. `None` if there
-/// is none, or no stiffness.
+/// The solution on the stiffness `K = W⁻¹`, with the load `K q`. `None` if there is none, or no stiffness.
 fn on_stiffness(
     problem: &FlexibilityProblem<'_>,
-    (settings, solve): (&Settings, Solve),
+    with: (&Settings, Solve),
     monitor: &mut Monitor<'_>,
 ) -> Result<Option<Solution>, Error> {
     let relation = problem.relation();
-    let Ok(Some(mut none)) = Springs::none(relation, monitor) else { return Ok(None) };
+    let Ok(Some(stiffness)) = stiffness(relation, 0.0, monitor) else { return Ok(None) };
     let size = problem.unknowns();
-    let stiffness = Matrix::new(size, none.stiffness(), size.max(1));
+    let stiffness = Matrix::new(size, &stiffness, size.max(1));
     let load = stiffness.product(relation.free);
     let form = Stiffness::new(stiffness, &load, problem.dim());
-    let found = step(problem, form, &vec![0.0; size], (settings, solve), monitor)?;
-    if found.status != Status::Solved {
-        return Ok(None);
-    }
-    let force = found.certificate.force;
-    let found = rounds(problem, &mut none, force, (settings, solve), monitor)?;
-    Ok(Some(found.solution).filter(|solution| solution.status == Status::Solved))
+    let found = step(problem, form, &vec![0.0; size], with, monitor)?;
+    Ok(Some(found).filter(|found| found.status == Status::Solved))
 }
 
 /// True if Newton's method is chosen, or left to the default.

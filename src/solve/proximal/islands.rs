@@ -73,7 +73,11 @@ fn in_turn(
         first = part.end;
         let island = island((problem, &ordered), (&data, part), &entries)?;
         let begin = gathered(&found.force, pairs, dim);
-        if let Some(newton) = on_itself(&Contact::new(&island), &own, &begin, monitor)
+        let contact = &Contact::new(&island);
+        let newton = on_itself(contact, &own, monitor).map(|mut equations| {
+            equations.solve(equations.coordinates(&begin), own.tolerance, monitor)
+        });
+        if let Some(newton) = newton
             && newton.ending == Ending::Done
             && newton.point.eta <= own.tolerance
         {

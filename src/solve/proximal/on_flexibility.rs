@@ -12,7 +12,7 @@
 
 use super::step::ended;
 use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, references, scale_roots};
-use crate::linalg::factor::{Factor, lu_work};
+use crate::linalg::factor::{Factor, cholesky_work, inverse_work, lu_work};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{norm, norm_of};
@@ -29,6 +29,13 @@ const DAMPING: [f64; 2] = [1e-13, 1e-2];
 /// Part of the tolerance that is aimed at: forces are known to less than `eta` where `W` hardly feels them, and the last
 /// system of Newton's method gives most of the digits.
 pub const ACCURATE: f64 = 1e-3;
+
+/// Operations of a solution on the inverse of `W` beside those of the inverse: the solution takes about as many, with the last system
+/// on `W`.
+const BY_INVERSE: f64 = 2.0;
+
+/// How Newton's method ends where the inverse of `W` is cheaper.
+pub const DEAR: Ending = Ending::Stalled("the inverse of W is cheaper");
 
 impl NewtonOutcome<LawPoint> {
     /// The result, with a certificate.
@@ -47,6 +54,8 @@ impl NewtonOutcome<LawPoint> {
 pub struct OnFlexibility<'c, 'p> {
     contact: &'c Contact<'p, Flexibility<'p>>,
     is_definite: bool,
+    /// Operations that factorisations may still take.
+    work: f64,
     /// Roots of the scales of the components: `y / root` and `root d` are of one unit.
     root: Vec<f64>,
 }
@@ -69,7 +78,18 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// The equations, undamped if `W` is definite.
     pub fn new(contact: &'c Contact<'p, Flexibility<'p>>, is_definite: bool) -> Self {
         let root = scale_roots(contact.pairs(), contact.dim()).collect();
-        OnFlexibility { contact, is_definite, root }
+        OnFlexibility { contact, is_definite, work: f64::INFINITY, root }
+    }
+
+    /// As long as factorisations take no more operations than a solution on the inverse of `W` would.
+    pub fn while_cheap(self) -> Self {
+        let n = self.root.len();
+        OnFlexibility { work: BY_INVERSE * (cholesky_work(n) + inverse_work(n)), ..self }
+    }
+
+    /// Whatever factorisations take.
+    pub fn at_any_cost(self) -> Self {
+        OnFlexibility { work: f64::INFINITY, ..self }
     }
 
     fn relation(&self) -> &'p Flexibility<'p> {
@@ -200,6 +220,10 @@ impl NormalMap for OnFlexibility<'_, '_> {
         let unknowns: Vec<usize> = (0..point.lack.len()).filter(|i| pairs[i / dim].0).collect();
         let damping = self.damping(point);
         let n = unknowns.len();
+        self.work -= lu_work(n);
+        if self.work < 0.0 {
+            return Err(DEAR);
+        }
         monitor.affords(lu_work(n))?;
         let fill = |j: usize, entries: &mut [f64]| {
             let (pair, c) = (unknowns[j] / dim, unknowns[j] % dim);
