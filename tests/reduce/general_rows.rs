@@ -226,3 +226,62 @@ fn pairs_that_nearly_repeat_others_carry_the_force() {
         }
     }
 }
+
+/// Grains of size 1 in a box, packed row by row into the hollows of the row below, each on a spring of its own and pressed by
+/// its weight; contacts have clearances up to a thousandth. There are more contacts than a grain has ways to move, so
+/// that rows depend on each other. The springs are definite: whatever the coefficient of friction there is a solution.
+#[test]
+fn packed_grains_find_their_equilibrium() {
+    for (columns, layers) in
+        (2..=5).flat_map(|columns| (1..=5).map(move |layers| (columns, layers)))
+    {
+        let places: Vec<[f64; 2]> = (0..layers)
+            .flat_map(|j| (0..columns - j % 2).map(move |i| (i, j)))
+            .map(|(i, j)| [i as f64 + 0.5 * (j % 2) as f64, j as f64 * 0.75_f64.sqrt()])
+            .collect();
+        let (mut rows, mut normals) = (Vec::new(), Vec::new());
+        for (a, from) in places.iter().enumerate() {
+            for (b, to) in places.iter().enumerate().skip(a + 1) {
+                let apart = [to[0] - from[0], to[1] - from[1]];
+                if (apart[0].hypot(apart[1]) - 1.0).abs() < 0.1 {
+                    rows.push(vec![(a, 1.0), (b, -1.0)]);
+                    normals.extend(apart);
+                }
+            }
+            let walls = [
+                (from[1] == 0.0, [0.0, -1.0]),
+                (from[0] == 0.0, [-1.0, 0.0]),
+                (from[0] == (columns - 1) as f64, [1.0, 0.0]),
+            ];
+            for (_, normal) in walls.into_iter().filter(|(touches, _)| *touches) {
+                rows.push(vec![(a, 1.0)]);
+                normals.extend(normal);
+            }
+        }
+        let pairs = rows.len();
+        let gap: Vec<f64> = (1..=pairs).map(|pair| 2e-4 * (7 * pair % 5) as f64).collect();
+        let load = [0.0, -1.0].repeat(places.len());
+        for (mu, spring) in [0.1, 0.3, 0.5, 1.0].into_iter().flat_map(|mu| [(mu, 1e-2), (mu, 1e-3)])
+        {
+            let size = 2 * places.len();
+            let mut stiffness = vec![0.0; size * size];
+            stiffness.iter_mut().step_by(size + 1).for_each(|entry| *entry = spring);
+            let (rows, normals) = (rows.clone(), normals.clone());
+            let host = Host { dim: 2, stiffness, fixed: vec![], rows, normals, tangents: None };
+            let settings = Settings::default();
+            let mu_of_pairs = vec![mu; pairs];
+            let law = FrictionLaw::Coulomb(&mu_of_pairs);
+            let case =
+                LoadCase { load: &load, prescribed: None, gap: &gap, law, reference_slip: None };
+            let model = host.model().unwrap();
+            let monitor = &mut Monitor::new(&settings, None);
+            let solution = model.solve(&case, &settings, None, monitor).unwrap();
+            assert_eq!(
+                solution.status,
+                Status::Solved,
+                "{columns} x {layers}, mu {mu}, springs {spring:e}: {}",
+                solution.message
+            );
+        }
+    }
+}

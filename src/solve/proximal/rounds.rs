@@ -7,11 +7,13 @@
 //! the forces that are left open, in the norm of `D⁻¹`.
 //!
 //! A round divides the error in a pattern of forces by its flexibility over `e`. Where that is slow, `e` is
-//! lowered, and after the first solution rounds go on until forces settle. Where Newton's method does not solve a
-//! round, and comes hardly nearer, `e` is raised: a larger one is an easier problem nearer to the forces at hand. Once the error
-//! is a tenth of that, with the largest `e`, and without friction, the default method has all its
-//! means: a round with the largest that it leaves without a solution, and no nearer to one, ends the rounds, and its sentence is that
-//! of the problem.
+//! lowered, and after the first solution rounds go on until forces settle. Where a round is not solved, and comes hardly nearer, `e`
+//! is raised: a larger one is an easier problem nearer to the forces at hand. A round with the largest that is left without a
+//! solution, and no nearer to one, ends the rounds, and its sentence is that of the problem.
+//!
+//! The default method has all its means in a round without friction, and between bodies that have a stiffness: Newton's method
+//! may find a solution of each round from which the next one leads away, and the path one from which it does not. On a singular
+//! `W` Newton's method comes first, in softer springs.
 //!
 //! Where forces grow with the least compliant springs too there is no solution near: they balance each other and wedge the bodies,
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
@@ -82,6 +84,11 @@ pub trait InSeries {
 
     /// True if there are no softer ones, or none that a round is left to.
     fn are_softest(&self) -> bool;
+
+    /// True if a round has all methods of the default with friction too, not Newton's alone.
+    fn are_solved_by_all_means(&self) -> bool {
+        self.are_softest()
+    }
 }
 
 /// The result of the rounds.
@@ -141,7 +148,6 @@ pub fn rounds<R: Redundant>(
         growth: Growth::default(),
         best: None,
         least: f64::INFINITY,
-        failed: f64::INFINITY,
         lowered: false,
         idle: 0,
         solved: 0,
@@ -170,8 +176,6 @@ struct Rounds<'p, 's, R: Redundant> {
     /// `eta` of the round before, and the least of those that halved the one before.
     last: f64,
     least: f64,
-    /// That before the last round that less compliant springs have failed in.
-    failed: f64,
     /// True if the springs of this round are less compliant than those before.
     lowered: bool,
     /// Rounds since `least` was halved.
@@ -200,10 +204,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         if failed && eta >= if softest { self.last } else { SLOW * self.last } {
             match softest {
                 true => _ = self.keep(found, false, false),
-                false => {
-                    self.failed = if self.is_nearer() { self.last } else { self.failed };
-                    self.springs.change(true, monitor);
-                }
+                false => self.springs.change(true, monitor),
             }
             return Ok(softest);
         }
@@ -239,18 +240,11 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE)
     }
 
-    /// True if the error is a tenth of that before the round that less compliant springs have failed in.
-    fn is_nearer(&self) -> bool {
-        self.last <= SLOW * self.failed
-    }
-
     /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
     fn round(&mut self, tolerance: f64, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
-        let again = self.failed.is_finite() && self.is_nearer();
-        let softest = self.springs.are_softest();
-        let frictionless = self.contact.is_frictionless();
+        let by_all_means = self.springs.are_solved_by_all_means() || self.contact.is_frictionless();
         let method = match self.settings.method {
-            Method::Auto if !(again || softest || frictionless) => Method::Newton,
+            Method::Auto if !by_all_means => Method::Newton,
             method => method,
         };
         let settings = Settings { tolerance, method, ..self.settings.clone() };
