@@ -24,7 +24,7 @@ const SEARCHED: u64 = 10;
 /// Solves a problem by following a path.
 pub fn curved(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     // Without an equilibrium the path runs away slowly: what can be proved at once is.
-    if let Some(motion) = rigid::escape(call.contact, monitor) {
+    if let Some(motion) = rigid::escape_behind_others(call, monitor) {
         return Candidate::without_displacements(call.contact, Ending::Recession(motion));
     }
     on_candidates(call, monitor, &mut |equations, (y, _), monitor| {

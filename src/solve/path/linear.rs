@@ -171,7 +171,7 @@ fn ended(
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Err(Ending::Recession(motion)) => {
-            Ending::Recession(rigid::escape(call.contact, monitor).unwrap_or(motion))
+            Ending::Recession(rigid::escape_behind_others(call, monitor).unwrap_or(motion))
         }
         Err(ending) => ending,
     };

@@ -23,7 +23,7 @@ use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, norm};
 use crate::monitor::Monitor;
 use crate::problem::{Relation, Stiffness};
-use crate::solve::result::Ending;
+use crate::solve::result::{Call, Ending};
 
 /// Approach of a pair beside the motion that is more than its own rounding.
 const STOPPED: f64 = 2.0 * f64::EPSILON;
@@ -46,6 +46,12 @@ const MOST_ROUNDS: usize = 300;
 /// A recession direction that the loads drive; `None` also if there is no time to look for it.
 pub fn escape(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
     Balance::new(contact, monitor)?.escape()
+}
+
+/// As [`escape`], for a method that comes behind others. The plan of a problem with friction has asked before: nothing was found.
+pub fn escape_behind_others(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+    let is_asked = !call.is_chosen() && !call.contact.is_frictionless();
+    if is_asked { None } else { escape(call.contact, monitor) }
 }
 
 /// Is asked if a motion proves that no equilibrium exists.

@@ -12,7 +12,7 @@ mod idle;
 mod mechanism;
 mod motions;
 
-pub use equilibrium::{Balance, escape};
+pub use equilibrium::{Balance, escape, escape_behind_others};
 pub use idle::{is_held_by_rounding, leave_idle_motion, moves_freely};
 pub use mechanism::{describe, describe_run_away};
 pub use motions::RigidMotions;

@@ -108,7 +108,7 @@ fn run(
         Ending::Recession(ray) => {
             let motion = lcp.motion(&ray);
             let proves = is_escape_of(contact, &motion);
-            let balanced = if proves { None } else { rigid::escape(contact, monitor) };
+            let balanced = if proves { None } else { rigid::escape_behind_others(call, monitor) };
             Ending::Recession(balanced.unwrap_or(motion))
         }
         other => other,
