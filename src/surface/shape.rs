@@ -168,41 +168,7 @@ impl FaceKind {
     /// Shape functions at a point.
     #[inline]
     pub(super) fn values(self, at: Local) -> Values {
-        let [s, t] = at;
-        let mut values = [0.0; MOST_NODES];
-        match self {
-            // Those that most meshes have, without their derivatives.
-            T3 => values[..3].copy_from_slice(&[1.0 - s - t, s, t]),
-            T6 => {
-                let r = 1.0 - s - t;
-                let mids = [4.0 * r * s, 4.0 * s * t, 4.0 * t * r];
-                values[..3].copy_from_slice(&[r, s, t]);
-                values[3..6].copy_from_slice(&mids);
-            }
-            Q4 | Q8 => {
-                let (a, b, c, d) =
-                    (0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.5 * (1.0 - t), 0.5 * (1.0 + t));
-                values[..4].copy_from_slice(&[a * c, b * c, b * d, a * d]);
-                if self == Q8 {
-                    let (along, across) = (1.0 - s * s, 1.0 - t * t);
-                    let mids = [along * c, b * across, along * d, a * across];
-                    values[4..8].copy_from_slice(&mids);
-                }
-            }
-            Q9 => {
-                let on_line = |s| [quadratic(s, 0)[0], quadratic(s, 1)[0], quadratic(s, 2)[0]];
-                let (along, across) = (on_line(s), on_line(t));
-                let places = values.iter_mut().zip(&SIDES);
-                places.for_each(|(value, &[a, b])| *value = along[a] * across[b]);
-            }
-            _ => return self.functions(at).map(|[value, _, _]| value),
-        }
-        if matches!(self, T6 | Q8) {
-            for (mid, corners) in self.mids() {
-                corners.into_iter().for_each(|corner| values[corner] -= 0.5 * values[mid]);
-            }
-        }
-        values
+        self.functions(at).map(|[value]| value)
     }
 
     /// Derivatives of the shape functions at a point, by the two coordinates.
@@ -210,41 +176,45 @@ impl FaceKind {
         self.functions(at).map(|[_, first, second]| [first, second])
     }
 
-    /// Shape functions, each with its derivatives by the two coordinates.
-    pub(super) fn functions(self, [s, t]: Local) -> [[f64; 3]; MOST_NODES] {
-        let mut functions = [[0.0; 3]; MOST_NODES];
+    /// Shape functions, each as its value and, with three parts, its derivatives by the two coordinates.
+    #[inline]
+    pub(super) fn functions<const PARTS: usize>(self, [s, t]: Local) -> [[f64; PARTS]; MOST_NODES] {
+        let mut functions = [[0.0; PARTS]; MOST_NODES];
         match self {
-            Line2 => (0..2).for_each(|i| functions[i] = product(linear(s, i), ONE)),
-            Line3 => (0..3).for_each(|i| functions[i] = product(quadratic(s, i), ONE)),
+            Line2 => (0..2).for_each(|i| functions[i] = product(linear(s)[i], ONE)),
+            Line3 => (0..3).for_each(|i| functions[i] = product(quadratic(s)[i], ONE)),
             T3 | T6 => {
                 let barycentric = [[1.0 - s - t, -1.0, -1.0], [s, 1.0, 0.0], [t, 0.0, 1.0]];
-                functions[..3].copy_from_slice(&barycentric);
+                (0..3).for_each(|i| functions[i] = first_parts(barycentric[i]));
                 for (mid, [a, b]) in self.mids() {
                     functions[mid] = times(4.0, barycentric[a], barycentric[b]);
                 }
-                self.take_from_corners(&mut functions);
             }
-            Q4 | Q8 => {
-                let along = |s, place| match place {
-                    MIDDLE => quadratic(s, place),
-                    _ => linear(s, place),
+            Q4 => {
+                let (along, across) = (linear(s), linear(t));
+                (0..4)
+                    .for_each(|i| functions[i] = product(along[SIDES[i][0]], across[SIDES[i][1]]));
+            }
+            Q8 | Q9 => {
+                let on_line = |s| match (linear(s), quadratic(s)) {
+                    ([low, high], [.., middle]) if self == Q8 => [low, high, middle],
+                    (_, all) => all,
                 };
+                let (along, across) = (on_line(s), on_line(t));
                 for (function, &[a, b]) in functions.iter_mut().zip(&SIDES[..self.nodes()]) {
-                    *function = product(along(s, a), along(t, b));
-                }
-                self.take_from_corners(&mut functions);
-            }
-            Q9 => {
-                for (i, [a, b]) in SIDES.iter().enumerate() {
-                    functions[i] = product(quadratic(s, *a), quadratic(t, *b));
+                    *function = product(along[a], across[b]);
                 }
             }
+        }
+        if matches!(self, T6 | Q8) {
+            self.take_from_corners(&mut functions);
         }
         functions
     }
 
     /// Makes the functions of the corners zero at the mid nodes, where they are a half.
-    fn take_from_corners(self, functions: &mut [[f64; 3]; MOST_NODES]) {
+    #[inline]
+    fn take_from_corners<const PARTS: usize>(self, functions: &mut [[f64; PARTS]; MOST_NODES]) {
         for (mid, corners) in self.mids() {
             for corner in corners {
                 let half = functions[mid].map(|part| 0.5 * part);
@@ -254,41 +224,42 @@ impl FaceKind {
     }
 }
 
-/// The middle node of a line with three.
-const MIDDLE: usize = 2;
-
 /// For each node of a quadrilateral, its places along the two coordinates: 0 and 1 the ends, 2 the middle.
 const SIDES: [[usize; 2]; 9] =
     [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [2, 1], [0, 2], [2, 2]];
 
 const ONE: [f64; 2] = [1.0, 0.0];
 
-/// A linear function of a line with its derivative.
-fn linear(s: f64, node: usize) -> [f64; 2] {
-    let sign = if node == 0 { -1.0 } else { 1.0 };
-    [0.5 * (1.0 + sign * s), 0.5 * sign]
+/// The linear functions of a line with their derivatives.
+#[inline]
+fn linear(s: f64) -> [[f64; 2]; 2] {
+    [-1.0, 1.0].map(|sign| [0.5 * (1.0 + sign * s), 0.5 * sign])
 }
 
-/// A quadratic function of a line with its derivative.
+/// The quadratic functions of a line with their derivatives: of the ends, then of the middle.
 #[inline]
-fn quadratic(s: f64, node: usize) -> [f64; 2] {
-    match node {
-        0 => [0.5 * s * (s - 1.0), s - 0.5],
-        1 => [0.5 * s * (s + 1.0), s + 0.5],
-        _ => [1.0 - s * s, -2.0 * s],
-    }
+fn quadratic(s: f64) -> [[f64; 2]; 3] {
+    [[0.5 * s * (s - 1.0), s - 0.5], [0.5 * s * (s + 1.0), s + 0.5], [1.0 - s * s, -2.0 * s]]
+}
+
+/// So many of a function's value and its derivatives as are asked for.
+#[inline]
+fn first_parts<const PARTS: usize>(all: [f64; 3]) -> [f64; PARTS] {
+    std::array::from_fn(|part| all[part])
 }
 
 /// `a(s) b(t)` with its derivatives.
-fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 3] {
-    [a[0] * b[0], a[1] * b[0], a[0] * b[1]]
+#[inline]
+fn product<const PARTS: usize>(a: [f64; 2], b: [f64; 2]) -> [f64; PARTS] {
+    first_parts([a[0] * b[0], a[1] * b[0], a[0] * b[1]])
 }
 
 /// `factor a b` with its derivatives.
-fn times(factor: f64, a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
+#[inline]
+fn times<const PARTS: usize>(factor: f64, a: [f64; 3], b: [f64; 3]) -> [f64; PARTS] {
+    first_parts([
         factor * a[0] * b[0],
         factor * (a[1] * b[0] + a[0] * b[1]),
         factor * (a[2] * b[0] + a[0] * b[2]),
-    ]
+    ])
 }
