@@ -83,11 +83,9 @@ impl<'a> SearchFaces<'a> {
         self.tree.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
         let plane = Plane::new(self.side.dim, point, normal);
         near.into_iter().filter(|&at| self.normals[at].dot(&normal) < 0.0).any(|at| {
-            let flat = plane.flatten(&self.side.face(at));
-            let below = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local));
+            let below = plane.meeting(&self.side.face(at));
             // Bodies that are flush end at the same depth.
-            below
-                .is_some_and(|local| (least..(1.0 + BEYOND) * depth).contains(&-flat.height(local)))
+            below.is_some_and(|(_, height)| (least..(1.0 + BEYOND) * depth).contains(&-height))
         })
     }
 }

@@ -34,16 +34,10 @@ struct MasterPoint {
 }
 
 impl MasterPoint {
-    /// The point at local coordinates, if it is on the face and within reach.
-    fn new(
-        face: &Face<'_>,
-        (at, normal): (Local, Vector3),
-        distance: f64,
-        is_near: impl Fn(f64) -> bool,
-    ) -> Option<MasterPoint> {
-        let weights = || face.nodes.iter().copied().zip(face.kind.values(at)).collect();
-        let meets = face.kind.holds(at) && is_near(distance);
-        meets.then(|| MasterPoint { distance, weights: weights(), normal })
+    /// The point of a face at local coordinates.
+    fn new(face: &Face<'_>, at: Local, distance: f64, normal: Vector3) -> MasterPoint {
+        let weights = face.nodes.iter().copied().zip(face.kind.values(at)).collect();
+        MasterPoint { distance, weights, normal }
     }
 }
 
@@ -81,13 +75,12 @@ fn meets(
     let faces = || found.iter().map(|&at| master.face(at));
     let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
     let along_ray = faces().filter_map(|face| {
-        let flat = plane.flatten(&face);
-        let at = flat.local([0.0; 2])?;
+        let (at, distance) = plane.meeting(&face).filter(|(_, distance)| reach.holds(*distance))?;
         let normal = match normals {
             Normals::Averaged => averaged,
             Normals::Faces => -unit(face.outward(at))?,
         };
-        MasterPoint::new(&face, (at, normal), flat.height(at), |distance| reach.holds(distance))
+        Some(MasterPoint::new(&face, at, distance, normal))
     });
     let along_ray = nearest(along_ray, rounding).into_iter().next()?;
     if own.end_above((x, averaged), -along_ray.distance, reach.of_shells()) {
@@ -99,10 +92,9 @@ fn meets(
     // On the face that the ray meets it is no further; another one further away is no neighbour.
     let most = (1.0 + BEYOND) * along_ray.distance.abs() + rounding;
     let perpendicular = faces().filter_map(|face| {
-        let (at, outward) = foot(&face, x)?;
-        MasterPoint::new(&face, (at, -outward), (face.position(at) - x).norm(), |distance| {
-            distance <= most
-        })
+        let (at, outward) = foot(&face, x).filter(|(at, _)| face.kind.holds(*at))?;
+        let distance = (face.position(at) - x).norm();
+        (distance <= most).then(|| MasterPoint::new(&face, at, distance, -outward))
     });
     let feet = nearest(perpendicular, rounding);
     let place = |foot: &MasterPoint| master.point(&foot.weights);

@@ -190,10 +190,9 @@ impl KeptSurfaces {
         let [origin, x] = point.map(|x| x - self.clearance * normal);
         let plane = Plane::new(self.dim, x, normal);
         let behind = near.iter().filter_map(|&at| {
-            let flat = plane.flatten(&after.face(at));
-            let local = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local))?;
+            let (local, height) = plane.meeting(&after.face(at))?;
             let apart = before.face(at).position(local) - origin;
-            let (depth, least) = (-flat.height(local), least(at));
+            let (depth, least) = (-height, least(at));
             (normal.dot(&apart) >= -least && depth > least).then_some((depth, at))
         });
         behind.min_by(|a, b| a.0.total_cmp(&b.0))

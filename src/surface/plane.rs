@@ -44,6 +44,14 @@ impl Plane {
         seen
     }
 
+    /// The point of a face on the normal through the plane's origin, with its height above the plane; `None` if that misses
+    /// the face.
+    pub(super) fn meeting(&self, face: &Face<'_>) -> Option<(Local, f64)> {
+        let flat = self.flatten(face);
+        let at = flat.local([0.0; 2]).filter(|&at| face.kind.holds(at))?;
+        Some((at, flat.height(at)))
+    }
+
     /// Projects a face.
     pub(super) fn flatten<'a>(&self, face: &Face<'a>) -> Flat<'a> {
         Flat::new(self.project(face))

@@ -200,9 +200,8 @@ pub(super) fn check_boundaries(
             }
             tree.near(&Sweep::of_point(&image, vector3::axis(0), [near; 2]), &mut found);
             let holds = |at: &&usize| {
-                let flat = Plane::new(slave.dim, image, normals[**at]).flatten(&slave.face(**at));
-                let local = flat.local([0.0; 2]).filter(|&local| flat.face.kind.holds(local));
-                local.is_some_and(|local| flat.height(local).abs() <= near)
+                let plane = Plane::new(slave.dim, image, normals[**at]);
+                plane.meeting(&slave.face(**at)).is_some_and(|(_, height)| height.abs() <= near)
             };
             if let Some(face) = found.iter().find(holds) {
                 let message = format!(
