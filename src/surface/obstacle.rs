@@ -85,13 +85,11 @@ pub(super) fn pairs(
     let side = side.checked(unit.inside, settings, watch)?;
     let mut on = OnPlanes::new(&side, settings)?;
     let images = WithImages::new(settings, (&side, &mut on), None, watch)?;
-    let Some(images) = images else {
-        let found = facing(&side, (&obstacle, &on), settings, watch)?;
-        return unit.of_host(found, settings);
-    };
-    let [all, _] = images.sides(&side, &side);
-    let found = facing(&all, (&obstacle, &on), settings, watch)?;
-    let found = images.own_pairs(found, &side)?;
+    let [all, _] = images.as_ref().map_or([side; 2], |images| images.sides(&side, &side));
+    let mut found = facing(&all, (&obstacle, &on), settings, watch)?;
+    if let Some(images) = images {
+        found = images.own_pairs(found, &side)?;
+    }
     unit.of_host(found, settings)
 }
 

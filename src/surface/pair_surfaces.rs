@@ -75,13 +75,9 @@ fn pair_sides(
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
     let opposite = Some((&master, &on_master, wanted));
     let images = WithImages::new(settings, (&slave, &mut on), opposite, watch)?;
-    let mut found = match &images {
-        None => search([&slave, &master], (&on, reach), settings, watch)?,
-        Some(images) => {
-            let sides = images.sides(&slave, &master);
-            search(sides.each_ref(), (&on, reach), settings, watch)?
-        }
-    };
+    let sides = [slave, master];
+    let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
+    let mut found = search(sides.each_ref(), (&on, reach), settings, watch)?;
     on.tell(&mut found.held);
     if master.is_rigid() {
         found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
