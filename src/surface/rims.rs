@@ -184,39 +184,30 @@ fn holders(
     found
 }
 
-/// The nodes beside some nodes, beside these, and so on, by all slave faces but some.
+/// The nodes beside some nodes, beside these, and so on, by all slave faces but some: of each the other nodes of its faces.
 fn beside(
     (slave, without): (&Side<'_>, &[usize]),
     nodes: impl Iterator<Item = usize>,
     layers: usize,
     watch: &mut Watch<'_, '_>,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
-    let mut found = neighbours(slave, without, nodes, watch)?;
-    for _ in 1..layers {
-        let next: BTreeSet<usize> = found.values().flatten().copied().collect();
-        let next = next.into_iter().filter(|node| !found.contains_key(node)).collect::<Vec<_>>();
-        found.extend(neighbours(slave, without, next.into_iter(), watch)?);
-    }
-    Ok(found)
-}
-
-/// The other nodes of the slave faces around some nodes, but for some faces.
-fn neighbours(
-    slave: &Side<'_>,
-    without: &[usize],
-    nodes: impl Iterator<Item = usize>,
-    watch: &mut Watch<'_, '_>,
-) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
-    let mut beside: HashMap<usize, BTreeSet<usize>> =
-        nodes.map(|node| (node, BTreeSet::new())).collect();
-    for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
-        watch.goes_on()?;
-        let nodes = slave.face(at).nodes;
-        for node in nodes {
-            if let Some(list) = beside.get_mut(node) {
-                list.extend(nodes.iter().filter(|&other| other != node));
+    let mut found: HashMap<usize, BTreeSet<usize>> = HashMap::new();
+    let mut next: BTreeSet<usize> = nodes.collect();
+    for _ in 0..layers {
+        let mut around: HashMap<usize, BTreeSet<usize>> =
+            next.into_iter().map(|node| (node, BTreeSet::new())).collect();
+        for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
+            watch.goes_on()?;
+            let nodes = slave.face(at).nodes;
+            for node in nodes {
+                if let Some(list) = around.get_mut(node) {
+                    list.extend(nodes.iter().filter(|&other| other != node));
+                }
             }
         }
+        next = around.values().flatten().copied().collect();
+        found.extend(around);
+        next.retain(|node| !found.contains_key(node));
     }
-    Ok(beside)
+    Ok(found)
 }
