@@ -181,7 +181,7 @@ impl Numbering {
         if let [_] = upon[..] {
             return Ok(());
         }
-        let mut entries: BTreeMap<_, (f64, Matrix3)> = BTreeMap::new();
+        let mut entries = Vec::with_capacity(pair.nodes.len());
         for ((is_master, node), (weight, turn)) in pair.entries() {
             let (place, node) = self.images.at(node);
             let (mut first, mut back) = (usize::MAX, Matrix3::identity());
@@ -194,9 +194,7 @@ impl Numbering {
                     (first, back) = (image, by.turn.transpose());
                 }
             }
-            let entry = entries.entry((is_master, first)).or_default();
-            entry.0 += weight;
-            entry.1 += turn * back;
+            entries.push(((is_master, first), (weight, turn * back)));
         }
         pair.set_entries(entries);
         pair.area /= upon.len() as f64;

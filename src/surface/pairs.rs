@@ -142,8 +142,15 @@ impl SurfacePair {
         })
     }
 
-    /// Gives the row other entries. Those that are zero but for rounding are left out.
-    pub(super) fn set_entries(&mut self, mut entries: BTreeMap<(bool, usize), (f64, Matrix3)>) {
+    /// Gives the row other entries: the sums of those of one node. Those that are zero but for rounding are left out.
+    pub(super) fn set_entries(&mut self, parts: impl IntoIterator<Item = Entry>) {
+        // Slaves, then masters.
+        let mut entries: BTreeMap<_, (f64, Matrix3)> = BTreeMap::new();
+        for (key, (weight, turn)) in parts {
+            let entry = entries.entry(key).or_default();
+            entry.0 += weight;
+            entry.1 += turn;
+        }
         entries.retain(|_, (weight, turn)| weight.abs().max(turn.amax()) > ROUNDING);
         self.slave_count = entries.keys().filter(|(is_master, _)| !is_master).count();
         self.nodes = entries.iter().map(|((_, node), (weight, _))| (*node, *weight)).collect();

@@ -1,6 +1,6 @@
 //! Contact zones in one set of pairs, one zone after the other.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
 use super::digits::ON_PLANE;
@@ -10,7 +10,7 @@ use super::sector_boundary::{CLOSE, at_images};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use crate::error::{Argument, Error, Message, index};
-use crate::linalg::vector3::{Matrix3, Vector3, unit, without};
+use crate::linalg::vector3::{Vector3, unit, without};
 
 /// A contact zone: its name, its pairs, and the slave faces that they were made of.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,12 @@ pub struct Joined {
 /// among others, zones of different sectors, or of which one has one boundary of a slave and another one the other, and a slave
 /// face of two zones of which both have the pair of a node on the same side: they would press on it twice.
 pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
-    check(zones).map_err(|message| Error::invalid(Argument::Pairs, message))?;
+    join(zones).map_err(|message| Error::invalid(Argument::Pairs, message))
+}
+
+/// As [`join_zones`], with the first fault of zones in words.
+fn join(zones: &[ContactZone<'_>]) -> Result<Joined, String> {
+    check(zones)?;
     let mut joined = SurfacePairs {
         dim: zones[0].contact.dim,
         axisymmetric: zones[0].contact.axisymmetric,
@@ -57,12 +62,11 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
     let size = points.flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
     for ContactZone { name, contact, .. } in zones {
         let numbers = joined.images.join(&contact.images, size).map_err(|_| {
-            let message = format!(
+            format!(
                 "zone '{name}' is in another sector than zone '{}', or of another mesh: give all zones the same axis and number \
                  of sectors, and pair them on one mesh",
                 zones[0].name
-            );
-            Error::invalid(Argument::Pairs, message)
+            )
         })?;
         joined.held.extend(contact.held.clone());
         for pair in &contact.pairs {
@@ -85,8 +89,7 @@ pub fn join_zones(zones: &[ContactZone<'_>]) -> Result<Joined, Error> {
         SurfacePair::sum(joined.dim, parts, (towards.into(), &held))
     };
     joined.pairs = parts.into_iter().map(sum).collect();
-    check_boundary(&joined, &starts, zones)
-        .map_err(|message| Error::invalid(Argument::Pairs, message))?;
+    check_boundary(&joined, &starts, zones)?;
     let mut told = HashSet::new();
     joined.unpaired.retain(|node| !places.contains_key(node) && told.insert(*node));
     Ok(Joined { contact: joined, starts })
@@ -287,16 +290,10 @@ impl SurfacePair {
             area,
             ..parts[0].clone()
         };
-        // Slaves, then masters.
-        let mut entries: BTreeMap<_, (f64, Matrix3)> = BTreeMap::new();
-        for part in &parts {
-            for (key, (weight, turn)) in part.entries() {
-                let entry = entries.entry(key).or_default();
-                entry.0 += part.area / area * weight;
-                entry.1 += part.area / area * turn;
-            }
-        }
-        sum.set_entries(entries);
+        sum.set_entries(parts.iter().flat_map(|part| {
+            let share = part.area / area;
+            part.entries().map(move |(key, (weight, turn))| (key, (share * weight, share * turn)))
+        }));
         sum
     }
 }
