@@ -19,9 +19,7 @@ pub(super) struct Side<'a> {
     pub(super) dim: usize,
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
-    /// Number of faces that the host has.
-    own: usize,
-    /// Behind these faces are images of some of them.
+    /// The last faces are images of these.
     origins: &'a [usize],
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
@@ -141,9 +139,15 @@ impl<'a> Side<'a> {
         self.argument == Argument::Obstacle
     }
 
+    /// The face of the host that a face is the image of, if it is one.
+    fn origin(&self, face: usize) -> Option<usize> {
+        let image = (face + self.origins.len()).checked_sub(self.count());
+        image.map(|image| self.origins[image])
+    }
+
     /// `true` of a face that is the image of one of the host.
     pub(super) fn is_image(&self, face: usize) -> bool {
-        face >= self.own
+        self.origin(face).is_some()
     }
 
     /// The area of a face with such integrals of shape functions, if the host has it.
@@ -153,13 +157,10 @@ impl<'a> Side<'a> {
 
     /// The number of a face for a message.
     pub(super) fn named(&self, face: usize) -> String {
-        if self.is_image(face) {
-            return format!(
-                "{} (turned, mirrored or shifted)",
-                index(self.origins[face - self.own])
-            );
+        match self.origin(face) {
+            Some(origin) => format!("{} (turned, mirrored or shifted)", index(origin)),
+            None => index(face),
         }
-        index(face)
     }
 
     /// An error about a face.
@@ -174,19 +175,16 @@ impl<'a> Side<'a> {
         (dim, coordinates): (usize, &'a [f64]),
         faces: Faces<'a>,
     ) -> Result<Side<'a>, Error> {
-        let (own, is_axisymmetric, scale) = (faces.start.len().saturating_sub(1), false, 1.0);
-        let (origins, left_open) = (&[][..], 0.0);
         let side = Side {
             name,
             argument,
             dim,
             coordinates,
             faces,
-            own,
-            origins,
-            is_axisymmetric,
-            scale,
-            left_open,
+            origins: &[],
+            is_axisymmetric: false,
+            scale: 1.0,
+            left_open: 0.0,
         };
         if !coordinates.len().is_multiple_of(dim) {
             let message =
@@ -199,9 +197,7 @@ impl<'a> Side<'a> {
 
     /// Master faces of the same mesh, whose nodes must not be on this side.
     pub(super) fn opposite(&self, faces: Faces<'a>) -> Result<Side<'a>, Error> {
-        let (name, argument) = ("master", Argument::MasterFaces);
-        let own = faces.start.len().saturating_sub(1);
-        let side = Side { name, argument, faces, own, ..*self };
+        let side = Side { name: "master", argument: Argument::MasterFaces, faces, ..*self };
         side.check_lists()?;
         let mut is_own = vec![false; self.coordinates.len() / self.dim];
         self.faces.nodes.iter().for_each(|&node| is_own[node] = true);
