@@ -19,9 +19,6 @@ const PARTNER: f64 = 0.1;
 /// Of the shortest edge at a node: where its image is nearer than this to an edge, surfaces meet there.
 pub(super) const CLOSE: f64 = 0.01;
 
-const MATCH: &str = "give the number of sectors of the whole or the period, and nodes of the two boundaries that match to the digits \
-                     of their coordinates";
-
 /// The nodes of a side on the second boundary, to which a motion leads, with those on the first whose images they are. Nodes on
 /// the axis are on neither.
 ///
@@ -204,13 +201,8 @@ pub(super) fn check_boundaries(
                 plane.meeting(&slave.face(**at)).is_some_and(|(_, height)| height.abs() <= near)
             };
             if let Some(face) = found.iter().find(holds) {
-                let message = format!(
-                    "sector: the image of slave node {}, {}, lies on slave face {} and on none of its nodes: {MATCH}",
-                    index(node),
-                    sector.step_in_words(),
-                    index(*face)
-                );
-                return Err(Error::invalid(Argument::Settings, message));
+                let place = format!("on slave face {} and on none", index(*face));
+                return Err(no_match(sector, node, &place));
             }
         }
     }
@@ -229,15 +221,20 @@ fn check_rim(
     for motion in sector.steps().as_flattened() {
         let has_partner = |node: usize| on_boundary.contains(&node);
         if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, watch)? {
-            let message = format!(
-                "sector: the image of slave node {}, {}, lies at the edge of nodes {} and {} and is none of its nodes: {MATCH}",
-                index(node),
-                sector.step_in_words(),
-                index(a),
-                index(b)
-            );
-            return Err(Error::invalid(Argument::Settings, message));
+            let place = format!("at the edge of nodes {} and {} and is none", index(a), index(b));
+            return Err(no_match(sector, node, &place));
         }
     }
     Ok(())
+}
+
+/// The error of a slave node whose image lies where no node is.
+fn no_match(sector: &Sector, node: usize, place: &str) -> Error {
+    let message = format!(
+        "sector: the image of slave node {}, {}, lies {place} of its nodes: give the number of sectors of the whole or the period, \
+         and nodes of the two boundaries that match to the digits of their coordinates",
+        index(node),
+        sector.step_in_words()
+    );
+    Error::invalid(Argument::Settings, message)
 }
