@@ -119,16 +119,16 @@ impl SurfacePairs {
         let shares = conjugate_gradients(squared, &wanted.collect::<Vec<_>>(), || watch.goes_on())?;
         let moves = times(&weights, &shares);
         masters_stay(&motions, &moves)?;
+        let mut move_by = |node: &usize, by: &[f64]| {
+            coordinates[dim * node..].iter_mut().zip(by).for_each(|(x, by)| *x += by);
+        };
         for (node, moved) in motions.nodes.iter().zip(moves.chunks_exact(dim)) {
-            coordinates[dim * node..].iter_mut().zip(moved).for_each(|(x, moved)| *x += moved);
+            move_by(node, moved);
         }
         for (second, first, motion) in images.on_second() {
             if let Ok(place) = motions.nodes.binary_search(first) {
                 let moved = motion.turn * vector(&moves[dim * place..][..dim]);
-                coordinates[dim * second..][..dim]
-                    .iter_mut()
-                    .zip(&moved)
-                    .for_each(|(x, moved)| *x += moved);
+                move_by(second, &moved.as_slice()[..dim]);
             }
         }
         Ok(())

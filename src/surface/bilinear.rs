@@ -88,11 +88,8 @@ impl Bilinear {
 
     /// The place in the plane.
     pub(super) fn place(&self, at: Local) -> Point {
-        let [s, t] = at;
-        [0, 1].map(|c| {
-            let [c0, c1, c2, c3] = self.x[c];
-            c0 + c1 * s + (c2 + c3 * s) * t
-        })
+        let [place, ..] = self.at(at);
+        [place.x, place.y]
     }
 
     /// The area of a unit of local coordinates in the plane; negative of a face that is turned over.

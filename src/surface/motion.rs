@@ -14,7 +14,7 @@ pub(super) struct Motion {
 impl Motion {
     /// The one that leaves all where it is.
     pub(super) fn none() -> Motion {
-        Motion { turn: Matrix3::identity(), shift: Vector3::zeros() }
+        Motion::shift(Vector3::zeros())
     }
 
     /// A shift.

@@ -87,9 +87,7 @@ impl<'a> Hull<'a> {
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        let Bounds { low, high } = Bounds::of(self.points.iter().copied());
-        let margin = Vector3::repeat(self.margin);
-        Bounds { low: low - margin, high: high + margin }
+        Bounds::of(self.points.iter().copied()).widened(self.margin)
     }
 }
 
@@ -138,8 +136,7 @@ impl<'a> Sweep<'a> {
         let bounds = Bounds::of(ends.into_iter());
         let largest = bounds.low.abs().sup(&bounds.high.abs()).amax();
         let beyond = (touch * largest).max(0.0);
-        let margin = Vector3::repeat(beyond);
-        let bounds = Bounds { low: bounds.low - margin, high: bounds.high + margin };
+        let bounds = bounds.widened(beyond);
         let along = along - normal.dot(&along) * normal;
         let across = [along, normal.cross(&along)].map(|v| {
             let v = v.try_normalize(0.0).unwrap_or_default();
