@@ -37,13 +37,12 @@ pub(super) fn stand_off(
     // Of nodes against surfaces slave nodes are on the true surface.
     let own = own && settings.pairing == Pairing::DualMortar;
     let of_side = |side, is_of_facets, watch: &mut Watch<'_, '_>| match is_of_facets {
-        true => at_all_nodes(side, watch).map(Some),
-        false => Ok(None),
+        true => at_all_nodes(side, watch),
+        false => Ok(Vec::new()),
     };
     let sides = [of_side(slave, own, watch)?, of_side(master, opposite, watch)?];
-    let mean = |side: &Option<Vec<f64>>, nodes: &[Weight]| {
-        let of_node = |side: &Vec<f64>| nodes.iter().map(|(node, part)| part * side[*node]).sum();
-        side.as_ref().map_or(0.0, of_node)
+    let mean = |away: &[f64], nodes: &[Weight]| -> f64 {
+        nodes.iter().map(|(node, part)| part * away.get(*node).unwrap_or(&0.0)).sum()
     };
     found.report.stand_off.reserve_exact(found.pairs.len());
     for pair in &found.pairs {

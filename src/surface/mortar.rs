@@ -89,7 +89,9 @@ pub(super) fn pairs<'a>(
     let on = (slave, &report.uncovered_faces[..], planes);
     report.folded = rims::fold(settings.rims, &mut rows, on, watch)?;
     let pair = |node, row: Row| {
-        let (gap, normal) = (row.gap / row.area, mean_normal(node, &row)?);
+        let gap = row.gap / row.area;
+        // The mean over what the row covers, with the rows that it has taken in.
+        let normal = direction(row.normal, row.area).ok_or_else(|| cancel(node))?;
         let mut pair = pair_of_row(sides, planes, (node, row), normal);
         if let Some(shapes) = &shapes {
             let size = shapes.size() + Vector3::from(pair.point).lp_norm(1);
@@ -98,11 +100,6 @@ pub(super) fn pairs<'a>(
         Ok(pair)
     };
     pairs_of_rows(slave, rows, report, pair, watch)
-}
-
-/// The normal of a row: the mean over what it covers, with the rows that it has taken in.
-fn mean_normal(node: usize, row: &Row) -> Result<Vector3, Error> {
-    direction(row.normal, row.area).ok_or_else(|| cancel(node))
 }
 
 impl<'a> Search<'a> {

@@ -77,7 +77,9 @@ pub(super) fn add_face(
     let mut masters: Vec<(usize, Values)> = masters.map(control).collect();
     // Rows are made of runs that ascend, which are merged in little time.
     masters.sort_unstable_by_key(|(node, _)| *node);
-    let own = nodes.iter().copied().zip(unit_values()).map(control);
+    // Nodal values that are one at a node each.
+    let of_one = |one: usize| std::array::from_fn(|node| f64::from(node == one));
+    let own = nodes.iter().enumerate().map(|(j, &node)| control((node, of_one(j))));
     let own: Vec<(usize, Values)> = own.collect();
     let gaps = basis.control_values(gaps);
     for (j, &node) in nodes.iter().enumerate() {
@@ -91,15 +93,6 @@ pub(super) fn add_face(
         row.normal += areas[j] * normals[j];
         row.gap += areas[j] * gaps[j];
     }
-}
-
-/// Nodal values that are one at a node each.
-fn unit_values() -> impl Iterator<Item = Values> {
-    (0..MOST_NODES).map(|node| {
-        let mut values = [0.0; MOST_NODES];
-        values[node] = 1.0;
-        values
-    })
 }
 
 /// Sums the weights of each node and divides them, in memory of their size: what a shorter list leaves of its own lies between

@@ -66,10 +66,7 @@ impl<'a> TrueSides<'a> {
         }
         let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::default()),
-            TrueShape::Fitted => {
-                let fitted = Some(fitted(side, watch)?);
-                Ok(TrueSide { fitted, exact: None })
-            }
+            TrueShape::Fitted => Ok(TrueSide { fitted: Some(fitted(side, watch)?), exact: None }),
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
