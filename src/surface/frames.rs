@@ -32,25 +32,20 @@ pub(super) fn tangents(
     towards: Vector3,
     held: &[Vector3],
 ) -> [Vector3; 2] {
-    if dim == 2 {
-        return plane::tangents(dim, normal);
-    }
     let first = match held {
+        _ if dim == 2 => None,
         // A frame has a tangent along a direction that is held.
         [across] => {
             let along = across.cross(&normal);
             let nearness = |tangent: Vector3| tangent.dot(&towards).abs();
             let is_nearer = nearness(along) >= nearness(*across) - ERROR_OF_DIRECTION;
             let nearer = if is_nearer { along } else { *across };
-            if nearer.dot(&towards) < 0.0 { -nearer } else { nearer }
+            Some(if nearer.dot(&towards) < 0.0 { -nearer } else { nearer })
         }
         _ => {
             let along = towards - normal.dot(&towards) * normal;
-            match unit(along).filter(|_| along.norm() > ERROR_OF_DIRECTION) {
-                Some(first) => first,
-                None => return plane::tangents(dim, normal),
-            }
+            unit(along).filter(|_| along.norm() > ERROR_OF_DIRECTION)
         }
     };
-    [first, normal.cross(&first)]
+    first.map_or_else(|| plane::tangents(dim, normal), |first| [first, normal.cross(&first)])
 }
