@@ -102,13 +102,11 @@ impl KeptSurfaces {
             KeptMaster::Faces(lists) => {
                 let masters = self.before_and_after("master", &moved, lists)?;
                 let (near, found) = self.through_faces(held, [&slaves, &masters], watch)?;
-                let asked = |at: &usize| &self.slave[1][self.slave[0][*at]..self.slave[0][at + 1]];
-                let lists =
-                    held.asked.iter().map(asked).fold([vec![0], vec![]], |mut lists, face| {
-                        lists[1].extend(face);
-                        lists[0].push(lists[1].len());
-                        lists
-                    });
+                let mut lists = [vec![0], Vec::new()];
+                for &at in &held.asked {
+                    lists[1].extend(slaves[0].nodes(at));
+                    lists[0].push(lists[1].len());
+                }
                 let asked = self.before_and_after("slave", &moved, &lists)?;
                 self.masters_through((held, near), [&asked, &masters], found, watch)
             }
