@@ -16,7 +16,7 @@
 
 use std::collections::HashMap;
 
-use super::shape::{FaceKind, Values};
+use super::shape::{FaceKind, Values, padded};
 
 /// The part of the centre's function that each corner takes. Each mid node takes two of them, and four remain.
 const PART: f64 = 1.0 / 16.0;
@@ -48,10 +48,7 @@ impl Edges {
 
     /// The basis of a face.
     pub(super) fn basis(&self, kind: FaceKind, nodes: &[usize], wholly: bool) -> Basis {
-        let mut alpha = [0.0; 4];
-        for (edge, (mid, _)) in kind.mids().enumerate() {
-            alpha[edge] = self.0[&nodes[mid]];
-        }
+        let alpha = padded(kind.mids().map(|(mid, _)| self.0[&nodes[mid]]));
         Basis { kind, alpha, spreads: !wholly }
     }
 }

@@ -12,6 +12,7 @@ use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
 use super::pairs::{SurfacePairs, Weight};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
+use super::shape::padded;
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -86,31 +87,23 @@ fn at_corners(face: &Face<'_>) -> [Vector3; 4] {
     if face.kind.mids().next().is_none() {
         return [face.middle_normal(); 4];
     }
-    let mut normals = [Vector3::zeros(); 4];
-    let corners = &face.kind.places()[..face.kind.corners()];
-    normals.iter_mut().zip(corners).for_each(|(normal, at)| *normal = face.normal(*at));
-    normals
+    padded(face.kind.places()[..face.kind.corners()].iter().map(|at| face.normal(*at)))
 }
 
 /// How far the true surface stands off a face with its `own` normals in the mean, outward, with normals of nodes of any length.
 fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[[f64; 3]]) -> f64 {
-    let corners = face.kind.corners();
     let steepest = (1.0 - SMOOTH) / (1.0 + SMOOTH);
     // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
-    let slopes: [Vector3; 4] = std::array::from_fn(|at| {
-        if at >= corners {
-            return Vector3::zeros();
-        }
+    let slopes: [Vector3; 4] = padded((0..face.kind.corners()).map(|at| {
         let mean = Vector3::from(normals[face.nodes[at]]);
         let across = mean.dot(&own[at]);
         if across > 0.0 { own[at] - mean / across } else { Vector3::zeros() }
-    });
+    }));
     let fall = |at: usize, along: &Vector3| {
         let fall = slopes[at].dot(along);
         if fall * fall <= steepest * along.norm_squared() { fall } else { 0.0 }
     };
-    let of_edge = |at: usize| {
-        let next = (at + 1) % corners;
+    let of_edge = |[at, next]: [usize; 2]| {
         let along = face.x[next] - face.x[at];
         // A face that is bent at one end alone is flat, beside an edge of the body.
         let [a, b] = [fall(at, &along), -fall(next, &along)];
@@ -118,7 +111,7 @@ fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[[f64; 3]]) -> f64
         (a + b).clamp(-least, least)
     };
     let of_chord = if face.kind.mids().next().is_some() { 60.0 } else { 12.0 };
-    0.5 * (0..corners).map(of_edge).sum::<f64>() / of_chord
+    0.5 * face.kind.edges().map(of_edge).sum::<f64>() / of_chord
 }
 
 /// Number of pairs at which facets change an interference by more than it allows, and the most by which they do; `None`: these

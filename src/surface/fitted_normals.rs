@@ -14,7 +14,7 @@ use super::face::Face;
 use super::fitted_quadric::{Form, fit};
 use super::mesh::Side;
 use super::normals::direction;
-use super::shape::{MANY_FACES, MOST_NODES};
+use super::shape::{MANY_FACES, MOST_NODES, padded};
 use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, axis, unit};
@@ -86,9 +86,7 @@ fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Surfaces, Erro
     for at in 0..side.count() {
         watch.goes_on()?;
         let face = side.face(at);
-        let corners = face.kind.corners();
-        for i in 0..corners {
-            let mut ends = [i, (i + 1) % corners];
+        for mut ends in face.kind.edges() {
             ends.sort_unstable_by_key(|&i| face.nodes[i]);
             let normals = ends.map(|i| face.normal(face.kind.places()[i]));
             let edge = edges.insert(ends.map(|i| face.nodes[i]), (at, normals));
@@ -106,9 +104,8 @@ fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Surfaces, Erro
     let mut rims = HashSet::new();
     for (at, &surface) in surface.iter().enumerate() {
         let face = side.face(at);
-        let corners = face.kind.corners();
-        for i in 0..corners {
-            let mut ends = [i, (i + 1) % corners].map(|i| face.nodes[i]);
+        for ends in face.kind.edges() {
+            let mut ends = ends.map(|i| face.nodes[i]);
             ends.sort_unstable();
             if !inner.contains(&ends) {
                 rims.extend(ends.map(|node| (surface, node)));
@@ -161,10 +158,7 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
         normals.insert((surface, node), normal);
     }
     let of_face = |(at, &surface): (usize, &usize)| {
-        let mut found = [Vector3::zeros(); MOST_NODES];
-        let nodes = side.face(at).nodes;
-        found.iter_mut().zip(nodes).for_each(|(n, &node)| *n = normals[&(surface, node)]);
-        found
+        padded(side.nodes(at).iter().map(|&node| normals[&(surface, node)]))
     };
     Ok(surface.iter().enumerate().map(of_face).collect())
 }

@@ -4,7 +4,7 @@ use super::digits::{ON_PLANE, left_open};
 use super::face::Face;
 use super::pairs::Weight;
 use super::settings::SurfaceSettings;
-use super::shape::{FaceKind, MOST_NODES, Values};
+use super::shape::{FaceKind, Values, padded};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use super::watch::Watch;
@@ -37,10 +37,7 @@ impl<'a> Side<'a> {
     /// A face by its place.
     pub(super) fn face(&self, face: usize) -> Face<'a> {
         let nodes = self.nodes(face);
-        let mut x = [Vector3::zeros(); MOST_NODES];
-        for (x, &node) in x.iter_mut().zip(nodes) {
-            *x = self.position(node);
-        }
+        let x = padded(nodes.iter().map(|&node| self.position(node)));
         Face { kind: self.kind(nodes), nodes, x, is_ring: self.is_axisymmetric }
     }
 

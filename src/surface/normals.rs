@@ -2,7 +2,7 @@
 
 use super::face::Face;
 use super::plane::Plane;
-use super::shape::{Local, MOST_NODES};
+use super::shape::{Local, MOST_NODES, padded};
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, unit};
@@ -17,11 +17,7 @@ const LEAST_NORMAL: f64 = 1e-6;
 
 /// Unit normals of a face at its nodes.
 pub(super) fn at_nodes(face: &Face<'_>) -> [Vector3; MOST_NODES] {
-    let mut normals = [Vector3::zeros(); MOST_NODES];
-    for (normal, &place) in normals.iter_mut().zip(face.kind.places()) {
-        *normal = face.normal(place);
-    }
-    normals
+    padded(face.kind.places().iter().map(|&place| face.normal(place)))
 }
 
 /// The direction of a sum of unit normals times areas; `None` if they cancel. `area` is the sum of the areas.

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use super::curved::POWERS;
 use super::overlap::{Meeting, Part};
-use super::shape::{FaceKind, Local, MOST_NODES, Values};
+use super::shape::{FaceKind, Local, MOST_NODES, Values, padded};
 use crate::linalg::columns::LINE;
 use crate::linalg::simd::vectorised;
 
@@ -59,11 +59,8 @@ impl Covered {
     /// Master nodes with the coefficients of their shape functions at the slave's nodes.
     pub(super) fn weights(&self) -> impl Iterator<Item = (usize, Values)> {
         let coefficients = self.coefficients.chunks_exact(self.slaves);
-        self.masters.iter().copied().zip(coefficients.map(|part| {
-            let mut values = [0.0; MOST_NODES];
-            values[..part.len()].copy_from_slice(part);
-            values
-        }))
+        let padded = coefficients.map(|part| padded(part.iter().copied()));
+        self.masters.iter().copied().zip(padded)
     }
 }
 
@@ -151,11 +148,8 @@ impl Polynomials {
             self.next.clear();
             self.next.extend(along.iter().zip(across).map(|(s, t)| s * t));
             let power = |x: f64, exponent: usize| [1.0, x, square(x)][exponent];
-            let mut at_nodes = [0.0; MOST_NODES];
-            for (p, &place) in at_nodes.iter_mut().zip(kind.places()) {
-                *p = power(scaled(place, 0), i) * power(scaled(place, 1), j);
-            }
-            self.add(at_nodes);
+            let at_node = |&at: &Local| power(scaled(at, 0), i) * power(scaled(at, 1), j);
+            self.add(padded(kind.places().iter().map(at_node)));
         }
     }
 

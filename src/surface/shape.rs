@@ -13,6 +13,14 @@ pub(super) const MOST_NODES: usize = 9;
 /// A number for each node of a face; zero beyond them.
 pub(super) type Values = [f64; MOST_NODES];
 
+/// Values in an array that they need not fill: zero behind them.
+#[inline]
+pub(super) fn padded<T: Copy + Default, const N: usize>(values: impl Iterator<Item = T>) -> [T; N] {
+    let mut array = [T::default(); N];
+    array.iter_mut().zip(values).for_each(|(place, value)| *place = value);
+    array
+}
+
 /// A point in a face's own coordinates. The second is zero on lines.
 pub(super) type Local = [f64; 2];
 
@@ -140,15 +148,16 @@ impl FaceKind {
         }
     }
 
+    /// The edges, by their corners; of a line it itself, to and fro.
+    pub(super) fn edges(self) -> impl Iterator<Item = [usize; 2]> {
+        let corners = self.corners();
+        (0..corners).map(move |edge| [edge, (edge + 1) % corners])
+    }
+
     /// Mid nodes on edges, each with the two corners beside it.
     pub(super) fn mids(self) -> impl Iterator<Item = (usize, [usize; 2])> {
-        let corners = self.corners();
-        let edges = match self {
-            Line2 | T3 | Q4 => 0,
-            Line3 => 1,
-            T6 | Q8 | Q9 => corners,
-        };
-        (0..edges).map(move |edge| (corners + edge, [edge, (edge + 1) % corners]))
+        let ends = self.nodes() - usize::from(self.central_node().is_some());
+        (self.corners()..ends).zip(self.edges())
     }
 
     /// The node in the middle of a face with 9 nodes.

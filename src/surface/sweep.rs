@@ -107,9 +107,8 @@ pub(super) struct Sweep<'a> {
 
 impl<'a> Sweep<'a> {
     pub(super) fn of_face(face: &'a Face<'_>, normal: Vector3, reach: [f64; 2]) -> Sweep<'a> {
-        let corners = face.kind.corners();
-        let edge = |i: usize| face.x[(i + 1) % corners] - face.x[i];
-        let longest = (0..corners).map(edge).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let edges = face.kind.edges().map(|[from, to]| face.x[to] - face.x[from]);
+        let longest = edges.max_by(|a, b| a.norm().total_cmp(&b.norm()));
         Sweep::new(Hull::of(face), (normal, longest.unwrap_or_default()), reach, -TOUCH)
     }
 

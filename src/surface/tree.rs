@@ -170,14 +170,13 @@ fn worth(edge: &Wall, most: f64) -> f64 {
 
 /// The walls of a face at its edges, as long as these.
 fn edges(face: &Face<'_>) -> Vec<Wall> {
-    let corners = face.kind.corners();
     if face.kind.is_line() {
         return Vec::new();
     }
     let normal = face.middle_normal();
-    let wall = |i: usize| {
-        let along = (face.x[(i + 1) % corners] - face.x[i]).cross(&normal);
-        Wall { along, most: along.dot(&face.x[i]) }
+    let wall = |[from, to]: [usize; 2]| {
+        let along = (face.x[to] - face.x[from]).cross(&normal);
+        Wall { along, most: along.dot(&face.x[from]) }
     };
-    (0..corners).map(wall).filter(|wall| wall.along != Vector3::zeros()).collect()
+    face.kind.edges().map(wall).filter(|wall| wall.along != Vector3::zeros()).collect()
 }
