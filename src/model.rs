@@ -180,9 +180,7 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
         if let Some(form) = self.reduction.flexibility() {
-            self.check_loads(Some(case.load), case.prescribed)?;
-            let problem = self.on_flexibility(form, case)?;
-            return solve_flexibility(&problem, settings, start, monitor);
+            return solve_flexibility(&self.on_flexibility(form, case)?, settings, start, monitor);
         }
         if let Some(bodies) = self.reduction.bodies() {
             check_limit(self.memory(), settings)?;

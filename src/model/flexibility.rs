@@ -39,12 +39,13 @@ impl Model {
     /// The problem of a load case on the flexibility.
     ///
     /// # Errors
-    /// As [`FlexibilityProblem::with_form`].
+    /// As [`FlexibilityProblem::with_form`], and loads or prescribed values of the wrong length or not finite.
     pub(super) fn on_flexibility<'a>(
         &self,
         form: FlexibilityForm<'a>,
         case: &LoadCase<'a>,
     ) -> Result<FlexibilityProblem<'a>, Error> {
+        self.check_loads(Some(case.load), case.prescribed)?;
         let of_pairs = (case.gap, case.law, case.reference_slip);
         FlexibilityProblem::with_form(form, self.dim, case.load, of_pairs)
     }

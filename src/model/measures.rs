@@ -36,7 +36,6 @@ impl Model {
     ) -> Result<Certificate, Error> {
         check_vector(("d", Argument::Start), d, self.dim * self.pairs)?;
         check_vector(("F", Argument::Force), force, self.dim * self.pairs)?;
-        self.check_loads(Some(case.load), case.prescribed)?;
         if let Some(dependence) = self.reduction.dependence() {
             return self.on_dependent_rows(dependence, (case, None), |problem| {
                 Ok(certify_in_units(problem, d, force))
