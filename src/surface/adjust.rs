@@ -98,7 +98,7 @@ impl SurfacePairs {
         let images = &self.images;
         let named =
             self.pairs.iter().flat_map(|pair| &pair.nodes).map(|(node, _)| images.of(*node).0);
-        let named = named.chain(images.on_second().iter().map(|(second, ..)| *second));
+        let named = named.chain(images.on_second().keys().copied());
         let least = named.map(|node| dim * (node + 1)).max().unwrap_or(0);
         if coordinates.len() < least {
             let message =
@@ -125,7 +125,7 @@ impl SurfacePairs {
         for (node, moved) in motions.nodes.iter().zip(moves.chunks_exact(dim)) {
             move_by(node, moved);
         }
-        for (second, first, motion) in images.on_second() {
+        for (second, (first, motion)) in images.on_second() {
             if let Ok(place) = motions.nodes.binary_search(first) {
                 let moved = motion.turn * vector(&moves[dim * place..][..dim]);
                 move_by(second, &moved.as_slice()[..dim]);

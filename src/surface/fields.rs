@@ -138,7 +138,7 @@ impl SurfacePairs {
             let held = self.held(*node);
             [&mut sum.traction, &mut sum.slip].into_iter().for_each(|v| *v = without(*v, &held));
         }
-        for (second, first, motion) in self.images.on_second() {
+        for (second, (first, motion)) in self.images.on_second() {
             let image = sums.get(first).map(|sum| sum.turned(&motion.turn));
             sums.extend(image.map(|image| (*second, image)));
         }
@@ -214,7 +214,7 @@ impl SurfacePairs {
     /// these nodes, so each carries an equal part of the pair.
     fn motions_to_second(&self) -> BTreeMap<usize, Vec<Motion>> {
         let mut motions: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
-        for (_, first, motion) in self.images.on_second() {
+        for (first, motion) in self.images.on_second().values() {
             motions.entry(*first).or_default().push(*motion);
         }
         motions

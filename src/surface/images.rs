@@ -1,15 +1,15 @@
 //! The images of nodes in the parts of the body beyond the model: in the neighbours of a sector, and beyond planes of
 //! symmetry. An image is a node of the model, moved: `u = Q u'`.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
 use super::motion::Motion;
 use super::sector::Sector;
 use crate::linalg::vector3::{Matrix3, Vector3};
 
-/// A node on a second boundary, that on the first whose image it is, and the motion from there.
-type OnSecond = (usize, usize, Motion);
+/// Nodes on second boundaries, each with that on the first whose image it is, and the motion from there.
+type OnSecond = BTreeMap<usize, (usize, Motion)>;
 
 /// The images of a host's nodes, counted behind them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,8 +22,7 @@ pub struct Images {
     places: Vec<Motion>,
     /// Each image: the place of its motion, and its node.
     list: Vec<(usize, usize)>,
-    /// Nodes on second boundaries, ascending.
-    second: Vec<OnSecond>,
+    second: OnSecond,
 }
 
 impl Images {
@@ -38,11 +37,9 @@ impl Images {
         self.are_of_sector().then_some(self.sector)
     }
 
-    /// Adds a node on a second boundary.
-    pub(super) fn add_second(&mut self, on_second: OnSecond) {
-        if let Err(place) = self.place_of_second(on_second.0) {
-            self.second.insert(place, on_second);
-        }
+    /// Adds a node on a second boundary by that on the first, unless it is known.
+    pub(super) fn add_second(&mut self, second: usize, first: (usize, Motion)) {
+        self.second.entry(second).or_insert(first);
     }
 
     /// `true` in a sector.
@@ -65,9 +62,9 @@ impl Images {
     pub(super) fn home(&self, node: usize) -> (usize, Motion) {
         let (place, node) = self.at(node);
         let motion = self.motion(place);
-        match self.place_of_second(node) {
-            Err(_) => (node, motion),
-            Ok(at) => (self.second[at].1, motion.after(&self.second[at].2)),
+        match self.second.get(&node) {
+            None => (node, motion),
+            Some((first, from_first)) => (*first, motion.after(from_first)),
         }
     }
 
@@ -118,21 +115,16 @@ impl Images {
 
     /// `true` of a node that the model has, and not its neighbour on the second boundary.
     pub(super) fn is_own(&self, node: usize) -> bool {
-        !self.has(node) && self.place_of_second(node).is_err()
-    }
-
-    /// Where a node is among those on second boundaries, or would be.
-    fn place_of_second(&self, node: usize) -> Result<usize, usize> {
-        self.second.binary_search_by_key(&node, |(second, ..)| *second)
+        !self.has(node) && !self.second.contains_key(&node)
     }
 
     /// The nodes on first boundaries.
     pub(super) fn on_first(&self) -> BTreeSet<usize> {
-        self.second.iter().map(|(_, first, _)| *first).collect()
+        self.second.values().map(|(first, _)| *first).collect()
     }
 
     /// The nodes on second boundaries.
-    pub(super) fn on_second(&self) -> &[OnSecond] {
+    pub(super) fn on_second(&self) -> &OnSecond {
         &self.second
     }
 
@@ -156,7 +148,7 @@ impl Images {
             // A zone without images has not counted the nodes.
             (self.nodes, self.places) = (other.nodes, other.places.clone());
         }
-        other.second.iter().for_each(|on_second| self.add_second(*on_second));
+        other.second.iter().for_each(|(second, first)| self.add_second(*second, *first));
         let mut known: HashMap<_, _> = (self.list.iter().copied()).zip(self.nodes..).collect();
         let numbers = other.list.iter().map(|&(place, node)| {
             let motion = other.places[place];

@@ -86,7 +86,7 @@ impl Numbering {
             let same = self.same((0, node))?.into_iter();
             let first = same.min_by_key(|(_, other)| (seconds.contains(other), *other));
             if let Some((place, first)) = first.filter(|(_, first)| *first != node) {
-                self.images.add_second((node, first, self.images.motion(place)));
+                self.images.add_second(node, (first, self.images.motion(place)));
             }
         }
         Ok(())

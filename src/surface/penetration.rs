@@ -119,7 +119,7 @@ impl KeptSurfaces {
             let mut marks = vec![false; self.nodes.len()];
             let places = nodes.flat_map(|node| self.nodes.binary_search(&node));
             places.for_each(|place| marks[place] = true);
-            for (second, first, _) in pairs.images.on_second() {
+            for (second, (first, _)) in pairs.images.on_second() {
                 let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
                 let both = second.into_iter().zip(first);
                 both.for_each(|(second, first)| marks[second] = marks[first]);

@@ -183,7 +183,7 @@ pub(super) fn check_boundaries(
     watch: &mut Watch<'_, '_>,
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
-        images.on_second().iter().flat_map(|(second, first, _)| [*second, *first]).collect();
+        images.on_second().iter().flat_map(|(second, (first, _))| [*second, *first]).collect();
     let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, watch)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
