@@ -8,7 +8,7 @@ use super::watch::Watch;
 use crate::error::Error;
 
 impl Candidates<'_> {
-    /// Adds to the report those of its uncovered faces, with the distance of the nearest master, negative where they overlap it:
+    /// Tells the report how far was looked, and adds those of its uncovered faces, with the distance of the nearest master, negative where they overlap it:
     /// where they are inside of a body, and no master face stands before it that looks their way, as that body's other side.
     ///
     /// # Errors
@@ -21,7 +21,7 @@ impl Candidates<'_> {
     ) -> Result<(), Error> {
         (report.boxes_searched, report.not_opposed) = (self.searched, self.not_opposed);
         let reach = self.reach;
-        report.overlap_distance = reach.overlap;
+        (report.search_distance, report.overlap_distance) = (reach.open, reach.overlap);
         (self.reach.overlap, self.reach.open) =
             (f64::max(reach.overlap, self.span), f64::max(reach.open, self.span));
         let mut overlaps = Overlaps::default();

@@ -55,8 +55,7 @@ pub(super) fn pairs<'a>(
     watch: &mut Watch<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;
-    let search_distance = candidates.reach.open;
-    let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
+    let mut report = SurfaceReport::default();
     let shapes = TrueSides::new(sides, settings, watch)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, own, candidates, shapes, overlaps, polynomials };

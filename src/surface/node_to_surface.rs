@@ -131,8 +131,7 @@ pub(super) fn pairs(
             met.insert(node, meeting);
         }
     }
-    let search_distance = candidates.reach.open;
-    let mut report = SurfaceReport { search_distance, ..SurfaceReport::default() };
+    let mut report = SurfaceReport::default();
     let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, watch)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
