@@ -57,14 +57,14 @@ pub(super) fn stand_off(
 /// The mean at each node of what the faces around it stand off; zero at other nodes.
 fn at_all_nodes(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<f64>, Error> {
     let count = side.coordinates.len() / side.dim;
-    let mut normals = vec![[0.0; 3]; count];
+    let mut normals = vec![Vector3::zeros(); count];
     let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
     for at in 0..side.count() {
         watch.goes_on()?;
         let face = side.face(at);
         let own = at_corners(&face);
         for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
-            (0..3).for_each(|axis| normals[node][axis] += normal[axis]);
+            normals[node] += normal;
         }
         of_faces.push(own);
     }
@@ -91,11 +91,11 @@ fn at_corners(face: &Face<'_>) -> [Vector3; 4] {
 }
 
 /// How far the true surface stands off a face with its `own` normals in the mean, outward, with normals of nodes of any length.
-fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[[f64; 3]]) -> f64 {
+fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 {
     let steepest = (1.0 - SMOOTH) / (1.0 + SMOOTH);
     // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
     let slopes: [Vector3; 4] = padded((0..face.kind.corners()).map(|at| {
-        let mean = Vector3::from(normals[face.nodes[at]]);
+        let mean = normals[face.nodes[at]];
         let across = mean.dot(&own[at]);
         if across > 0.0 { own[at] - mean / across } else { Vector3::zeros() }
     }));

@@ -139,13 +139,11 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
         if is_linear || near.len() < MOST_NODES {
             near = ring(surface, &near);
         }
-        let is_layer = is_linear && near.iter().all(|&node| rims.contains(&(surface, node)));
-        let form = if is_layer {
-            Form::Layer
-        } else if is_linear {
-            Form::Linear
-        } else {
-            Form::Curved
+        let is_at_rim = |node: &usize| rims.contains(&(surface, *node));
+        let form = match is_linear {
+            true if near.iter().all(is_at_rim) => Form::Layer,
+            true => Form::Linear,
+            false => Form::Curved,
         };
         near.remove(&node);
         let from = near.iter().map(|&other| side.position(other) - side.position(node));

@@ -129,17 +129,14 @@ impl Images {
     }
 
     /// Takes in the images of another zone of the same host, within so much of the origin, and returns the numbers that they
-    /// have here, in their order.
-    ///
-    /// # Errors
-    /// They are those of another sector, or of a host with another number of nodes.
-    pub(super) fn join(&mut self, other: &Images, size: f64) -> Result<Vec<usize>, ()> {
+    /// have here, in their order. `None`: they are those of another sector, or of a host with another number of nodes.
+    pub(super) fn join(&mut self, other: &Images, size: f64) -> Option<Vec<usize>> {
         let sectors = self.sector().zip(other.sector());
         let is_other_sector = sectors.is_some_and(|(own, other)| !own.is(&other, size));
         let is_other_host =
             !self.list.is_empty() && !other.list.is_empty() && self.nodes != other.nodes;
         if is_other_sector || is_other_host {
-            return Err(());
+            return None;
         }
         if other.are_of_sector() {
             self.sector = other.sector;
@@ -156,6 +153,6 @@ impl Images {
             let image = (same.unwrap_or_else(|| self.add_motion(motion)), node);
             *known.entry(image).or_insert_with(|| self.add(image))
         });
-        Ok(numbers.collect())
+        Some(numbers.collect())
     }
 }

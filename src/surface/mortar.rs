@@ -173,7 +173,7 @@ impl<'a> Search<'a> {
             let other = master.face(opposite);
             let before = overlaps.points.len();
             let wanted = |distance| reach.holds(distance);
-            let part = in_plane.overlap(&other, wanted, overlaps).map_err(|_| {
+            let part = in_plane.overlap(&other, wanted, overlaps).ok_or_else(|| {
                 let opposite = master.named(opposite);
                 let what = format!(
                     "cannot be projected on master face {opposite}: one of them is turned over, strongly curved \

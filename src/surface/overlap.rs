@@ -100,10 +100,6 @@ pub(super) struct Overlaps {
     rest: Vec<Point>,
 }
 
-/// A part of a face whose local coordinates were not found.
-#[derive(Debug)]
-pub(super) struct NotFound;
-
 /// The terms of a series of powers of this ratio down to what is left.
 fn terms(ratio: f64, left: f64) -> usize {
     (left.ln() / ratio.ln()).ceil() as usize
@@ -142,16 +138,14 @@ impl<'a> SlaveFace<'a> {
         SlaveFace { of_gaps: degree, ..self }
     }
 
-    /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`.
-    ///
-    /// # Errors
-    /// A face that is turned over in the projection has no local coordinates.
+    /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`. `None`: a face
+    /// that is turned over in the projection has no local coordinates.
     pub(super) fn overlap(
         &self,
         master: &Face<'_>,
         wanted: impl Fn(f64) -> bool,
         found: &mut Overlaps,
-    ) -> Result<Part, NotFound> {
+    ) -> Option<Part> {
         let seen = self.plane.project(master);
         let Overlaps { points, clipper, near, window, mapped, rest } = found;
         outline(&seen, window);
@@ -165,16 +159,16 @@ impl<'a> SlaveFace<'a> {
         let area = measure(common);
         // An outline that local coordinates bend may cross itself at a corner, and have less than no area beside it.
         if !(area.abs() > LEAST_PART * self.area) {
-            return Ok(Part::default());
+            return Some(Part::default());
         }
         let before = points.len();
         let share = area / self.area;
         let part = Part { share, ..self.add_points(&Flat::new(seen), (common, rest), points)? };
         if !wanted(part.distance) {
             points.truncate(before);
-            return Ok(Part::default());
+            return Some(Part::default());
         }
-        Ok(part)
+        Some(part)
     }
 
     /// The share of the smaller of two faces that has the given share of this one.
@@ -187,22 +181,22 @@ impl<'a> SlaveFace<'a> {
         share * own / own.min(other)
     }
 
-    /// A polygon of the plane where the face is straight. With edges that this bends much it has their middles too.
-    fn map(&self, polygon: &[Point], mapped: &mut Vec<Point>) -> Result<(), NotFound> {
+    /// A polygon of the plane where the face is straight. With edges that this bends much it has their middles too. `None`: a
+    /// part of it has no local coordinates.
+    fn map(&self, polygon: &[Point], mapped: &mut Vec<Point>) -> Option<()> {
         mapped.clear();
         let halve = OF_BENDING * self.bending > MOST_SAG && !self.face.kind.is_line();
         for (i, &p) in polygon.iter().enumerate() {
             let next = polygon[(i + 1) % polygon.len()];
             let middle = [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
             for p in [Some(p), halve.then_some(middle)].into_iter().flatten() {
-                let at = self.flat.local_beyond(p).ok_or(NotFound)?;
-                mapped.push(self.straight.place(at));
+                mapped.push(self.straight.place(self.flat.local_beyond(p)?));
             }
         }
         if self.face.kind.is_line() {
             turn_left(mapped);
         }
-        Ok(())
+        Some(())
     }
 
     /// The number of points along each direction on a common part: exact for products of shape functions if local
@@ -238,31 +232,32 @@ impl<'a> SlaveFace<'a> {
         Some(of_distortion.max(of_warp))
     }
 
-    /// Adds the points of a common part, in memory for the rest of it, and returns its distances along the normal.
+    /// Adds the points of a common part, in memory for the rest of it, and returns its distances along the normal. `None`: a part
+    /// of it has no local coordinates.
     fn add_points(
         &self,
         master: &Flat<'_>,
         (common, rest): (&[Point], &mut Vec<Point>),
         points: &mut Vec<Meeting>,
-    ) -> Result<Part, NotFound> {
+    ) -> Option<Part> {
         let (mut distance, mut whole) = (0.0, 0.0);
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let in_plane = self.around.is_none();
         let count = self.points_along(master);
         quadrature::points(common, rest, count).try_for_each(|(p, part)| {
-            let slave = self.straight.local(p).ok_or(NotFound)?;
+            let slave = self.straight.local(p)?;
             let [x, along, across] = self.flat.at(slave);
             let normal = along.cross(&across);
             let straight = if in_plane { normal.z } else { self.straight.area(slave) };
             let area = part * normal.norm() / straight.abs();
-            let at = master.local(if in_plane { p } else { [x.x, x.y] }).ok_or(NotFound)?;
+            let at = master.local(if in_plane { p } else { [x.x, x.y] })?;
             let height = master.height(at) - x.z;
             range = [range[0].min(height), range[1].max(height)];
             distance += part * height;
             whole += part;
             points.push(Meeting { slave, master: at, weight: area * self.face.around(slave) });
-            Ok(())
+            Some(())
         })?;
-        Ok(Part { distance: distance / whole, range, ..Part::default() })
+        Some(Part { distance: distance / whole, range, ..Part::default() })
     }
 }

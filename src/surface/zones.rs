@@ -61,7 +61,7 @@ fn join(zones: &[ContactZone<'_>]) -> Result<Joined, String> {
     let points = zones.iter().flat_map(|zone| &zone.contact.pairs).map(|pair| pair.point);
     let size = points.flatten().fold(0.0, |size: f64, x| size.max(x.abs()));
     for ContactZone { name, contact, .. } in zones {
-        let numbers = joined.images.join(&contact.images, size).map_err(|_| {
+        let numbers = joined.images.join(&contact.images, size).ok_or_else(|| {
             format!(
                 "zone '{name}' is in another sector than zone '{}', or of another mesh: give all zones the same axis and number \
                  of sectors, and pair them on one mesh",
