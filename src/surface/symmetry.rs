@@ -7,7 +7,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::face::Face;
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
@@ -84,15 +83,13 @@ impl OnPlanes {
 
     /// Refuses slave faces in a plane, or on the axis of bodies of revolution.
     fn check(&self, side: &Side<'_>) -> Result<(), Error> {
-        let lies = |face: &Face<'_>, on: &[usize]| {
-            face.nodes.iter().all(|node| on.binary_search(node).is_ok())
-        };
-        let of_rings: Vec<usize> = self.of_rings.iter().copied().collect();
-        for at in 0..side.count() {
-            let face = side.face(at);
-            let on = self.mirrors.iter().map(|mirror| &mirror.nodes).chain([&of_rings]);
-            if on.clone().any(|on| lies(&face, on)) {
-                let node = face.nodes.iter().min().copied().unwrap_or_default();
+        for nodes in (0..side.count()).map(|at| side.nodes(at)) {
+            let is_in =
+                |mirror: &Mirror| nodes.iter().all(|node| mirror.nodes.binary_search(node).is_ok());
+            if self.mirrors.iter().any(is_in)
+                || nodes.iter().all(|node| self.of_rings.contains(node))
+            {
+                let node = nodes.iter().min().copied().unwrap_or_default();
                 let message = format!(
                     "a plane of symmetry has slave faces in it, at node {}: leave these faces out, or the plane",
                     index(node)
