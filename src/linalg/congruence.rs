@@ -6,8 +6,8 @@
 //! they are they would pass for a stiffness, or for a negative one.
 
 use super::sparse_matrix::{
-    Columns, Csc, OutOfMemory, absolute, both, column, diagonal, entries, from_entries, product,
-    transposed,
+    Columns, Csc, OutOfMemory, absolute, both, diagonal, diagonals, entries, entries_of,
+    from_entries, product, transposed, value_at,
 };
 use super::tolerances::ROUNDING;
 use super::watched::GoesOn;
@@ -73,14 +73,12 @@ impl Unresisted {
     /// Looks among the first `columns` of `W`; `None` if there is none. `lower` is `H`, and `half` is `H W`.
     fn new(lower: &Csc, w: &Csc, half: &Csc, columns: usize) -> Result<Option<Self>, OutOfMemory> {
         // No term of a semi-definite matrix is larger than these roots allow, so that few columns are looked at.
-        let diagonal = (0..lower.ncols()).map(|i| 2.0 * diagonal(lower, i).unwrap_or_default());
-        let roots: Vec<f64> = diagonal.map(|entry| entry.abs().sqrt()).collect();
+        let roots: Vec<f64> = diagonals(lower).map(|half| (2.0 * half).abs().sqrt()).collect();
         let energy = |j: usize| {
             2.0 * both(w, half, j, 0).map(|(_, motion, force)| motion * force).sum::<f64>()
         };
         let most = |j: usize| {
-            let (rows, values) = column(w, j);
-            rows.iter().zip(values).map(|(&i, value)| value.abs() * roots[i]).sum::<f64>().powi(2)
+            entries_of(w, j).map(|(i, value)| value.abs() * roots[i]).sum::<f64>().powi(2)
         };
         let weak: Vec<usize> = (0..columns).filter(|&j| energy(j) < ROUNDING * most(j)).collect();
         if weak.is_empty() {
@@ -89,7 +87,7 @@ impl Unresisted {
         let sizes = sizes_of_terms(lower, w, &weak)?;
         let mut places = vec![None; w.ncols()];
         for (k, &j) in weak.iter().enumerate() {
-            let is_rounding = energy(j).abs() <= ROUNDING * entry(&sizes, j, k);
+            let is_rounding = energy(j).abs() <= ROUNDING * value_at(&sizes, j, k);
             places[j] = is_rounding.then_some(k);
         }
         Ok(Some(Unresisted { places, sizes }))
@@ -97,7 +95,7 @@ impl Unresisted {
 
     /// `true` if a `value` of the product belongs to one of the columns, and is rounding.
     fn is_rounding(&self, (i, j): (usize, usize), value: f64) -> bool {
-        let size = |row, column: usize| Some(entry(&self.sizes, row, self.places[column]?));
+        let size = |row, column: usize| Some(value_at(&self.sizes, row, self.places[column]?));
         size(i, j).or_else(|| size(j, i)).is_some_and(|size| value.abs() <= ROUNDING * size)
     }
 }
@@ -108,16 +106,8 @@ fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfM
     let mirrored = entries(&half).flat_map(|(i, j, value)| [(i, j, value), (j, i, value)]);
     let whole = from_entries((half.nrows(), half.ncols()), mirrored)?;
     let w = absolute(w);
-    let some = columns.iter().enumerate().flat_map(|(k, &j)| {
-        let (rows, values) = column(&w, j);
-        rows.iter().zip(values).map(move |(&i, &value)| (i, k, value))
-    });
+    let some = columns.iter().enumerate();
+    let some = some.flat_map(|(k, &j)| entries_of(&w, j).map(move |(i, value)| (i, k, value)));
     let chosen = from_entries((w.nrows(), columns.len()), some)?;
     product(&transposed(&w)?, &product(&whole, &chosen)?)
-}
-
-/// An entry; 0 if it is not stored.
-fn entry(a: &Csc, i: usize, j: usize) -> f64 {
-    let (rows, values) = column(a, j);
-    rows.binary_search(&i).map_or(0.0, |place| values[place])
 }

@@ -1,6 +1,6 @@
 //! Sparse matrices in compressed columns, rows ascending, by faer on the calling thread.
 
-use faer::sparse::linalg::matmul::{sparse_dense_matmul, sparse_sparse_matmul};
+use faer::sparse::linalg::matmul::{SparseDenseMatMul, sparse_dense_matmul, sparse_sparse_matmul};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat, Triplet};
 use faer::{Accum, MatMut, MatRef, Par};
 
@@ -42,18 +42,31 @@ pub fn column(a: &Csc, j: usize) -> (&[usize], &[f64]) {
     (&a.symbolic().row_idx()[range.clone()], &a.val()[range])
 }
 
+/// The entries of a column: row, value.
+#[inline(always)]
+pub fn entries_of(a: &Csc, j: usize) -> impl Iterator<Item = (usize, f64)> {
+    let (rows, values) = column(a, j);
+    rows.iter().copied().zip(values.iter().copied())
+}
+
 /// All entries, column by column: row, column, value.
 pub fn entries(a: &Csc) -> impl Iterator<Item = (usize, usize, f64)> {
-    (0..a.ncols()).flat_map(|j| {
-        let (rows, values) = column(a, j);
-        rows.iter().zip(values).map(move |(&i, &value)| (i, j, value))
-    })
+    (0..a.ncols()).flat_map(|j| entries_of(a, j).map(move |(i, value)| (i, j, value)))
+}
+
+/// An entry; 0 if it is not stored.
+pub fn value_at(a: &Csc, i: usize, j: usize) -> f64 {
+    a.get(i, j).copied().unwrap_or_default()
 }
 
 /// The diagonal entry of column `j` of a lower triangle, if it is stored.
 pub fn diagonal(lower: &Csc, j: usize) -> Option<f64> {
-    let (rows, values) = column(lower, j);
-    (rows.first() == Some(&j)).then(|| values[0])
+    entries_of(lower, j).next().filter(|(i, _)| *i == j).map(|(_, value)| value)
+}
+
+/// The diagonal of a lower triangle, 0 where it is not stored.
+pub fn diagonals(lower: &Csc) -> impl Iterator<Item = f64> {
+    (0..lower.ncols()).map(|j| diagonal(lower, j).unwrap_or_default())
 }
 
 /// Rows from `first` on that are stored in column `j` of `a` or of `b`, with both values; 0 stands for
@@ -94,17 +107,18 @@ pub fn transposed(a: &Csc) -> Result<Csc, OutOfMemory> {
 
 /// `A x`.
 pub fn times(a: &Csc, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.0; a.nrows()];
-    let (target, x) = (as_column_mut(&mut y), as_column(x));
-    sparse_dense_matmul(target, Accum::Replace, a.as_ref(), x, 1.0, Par::Seq);
-    y
+    image(a.as_ref(), a.nrows(), x)
 }
 
 /// `Aᵀ x`.
 pub fn transpose_times(a: &Csc, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.0; a.ncols()];
-    let (target, x) = (as_column_mut(&mut y), as_column(x));
-    sparse_dense_matmul(target, Accum::Replace, a.transpose(), x, 1.0, Par::Seq);
+    image(a.transpose(), a.ncols(), x)
+}
+
+fn image(a: impl SparseDenseMatMul<f64>, rows: usize, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; rows];
+    let target = as_column_mut(&mut y);
+    sparse_dense_matmul(target, Accum::Replace, a, as_column(x), 1.0, Par::Seq);
     y
 }
 
@@ -112,8 +126,7 @@ pub fn transpose_times(a: &Csc, x: &[f64]) -> Vec<f64> {
 #[inline(always)]
 pub fn each_of_symmetric(lower: &Csc, mut visit: impl FnMut(usize, usize, f64)) {
     for j in 0..lower.ncols() {
-        let (rows, values) = column(lower, j);
-        for (&i, &value) in rows.iter().zip(values) {
+        for (i, value) in entries_of(lower, j) {
             visit(i, j, value);
             if i != j {
                 visit(j, i, value);

@@ -18,7 +18,7 @@ use super::dependence::{Dependence, unit_of_pair, units};
 use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::linalg::sparse_matrix::column;
+use crate::linalg::sparse_matrix::entries_of;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 
@@ -33,8 +33,7 @@ pub(super) struct ByEquilibrium {
 fn entries(dependence: &Dependence) -> impl Iterator<Item = (usize, usize, f64)> {
     let first = dependence.told();
     (0..dependence.variables() - first).flat_map(move |k| {
-        let (rows, values) = column(&dependence.to_relative, first + k);
-        rows.iter().zip(values).map(move |(&i, &c)| (i, k, c))
+        entries_of(&dependence.to_relative, first + k).map(move |(i, c)| (i, k, c))
     })
 }
 

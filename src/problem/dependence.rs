@@ -2,7 +2,7 @@
 
 use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{
-    Csc, OutOfMemory, column, from_entries, times, transpose_times,
+    Csc, OutOfMemory, entries_of, from_entries, times, transpose_times,
 };
 use crate::linalg::vector::norm_inf;
 
@@ -35,9 +35,8 @@ impl Dependence {
     ) -> Result<Self, OutOfMemory> {
         let to_relative = from_entries(shape, to_relative.into_iter())?;
         let names_most = |j: usize| {
-            let (rows, values) = column(&to_relative, j);
-            let named = rows.iter().zip(values);
-            named.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map_or(0, |(&row, _)| row)
+            let named = entries_of(&to_relative, j);
+            named.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map_or(0, |(row, _)| row)
         };
         let by_equilibrium = (shape.1 - by_equilibrium..shape.1).map(names_most).collect();
         Ok(Dependence {
@@ -115,8 +114,8 @@ pub(super) fn units(
     let otherwise = if of_variables.is_empty() { of_rigid } else { norm_inf(&of_variables) };
     let mut compliance = vec![0.0; dependence.to_relative.nrows()];
     for (j, unit) in of_variables.iter().enumerate() {
-        let (rows, values) = column(&dependence.to_relative, j);
-        rows.iter().zip(values).for_each(|(&i, c)| compliance[i] += c * c / unit);
+        let column = entries_of(&dependence.to_relative, j);
+        column.for_each(|(i, c)| compliance[i] += c * c / unit);
     }
     let unit = |compliance: &f64| if *compliance > 0.0 { 1.0 / compliance } else { otherwise };
     let mut units: Vec<f64> = compliance.iter().map(unit).collect();

@@ -4,7 +4,7 @@
 use super::islands::Islands;
 use crate::error::{Argument, Error};
 use crate::linalg::sparse_matrix::{
-    Csc, column, diagonal, entries, symmetric_residual, symmetric_times,
+    Csc, diagonals, entries, entries_of, symmetric_residual, symmetric_times,
 };
 use crate::linalg::vector::largest_of;
 
@@ -41,8 +41,7 @@ impl SparseW {
     }
 
     pub(super) fn largest_diagonal(&self) -> f64 {
-        let each = (0..self.lower.ncols()).map(|j| diagonal(&self.lower, j).unwrap_or(0.0));
-        largest_of(each)
+        largest_of(diagonals(&self.lower))
     }
 
     /// The matrix with other values in the same places; `None` where there is none for one of them.
@@ -76,10 +75,10 @@ impl SparseW {
         for (place, &pair) in pairs.iter().enumerate() {
             for component in 0..dim {
                 let j = dim * place + component;
-                let (rows, values) = column(&self.lower, dim * pair + component);
+                let entries = entries_of(&self.lower, dim * pair + component);
                 // Rows ascend, and so do the pairs: places are found from the last one on.
                 let mut at = place;
-                for (&row, &value) in rows.iter().zip(values).filter(|(_, value)| **value != 0.0) {
+                for (row, value) in entries.filter(|(_, value)| *value != 0.0) {
                     at += pairs[at..].partition_point(|&pair| pair < row / dim);
                     let i = dim * at + row % dim;
                     (part[i + n * j], part[j + n * i]) = (value, value);
@@ -93,8 +92,8 @@ impl SparseW {
     pub fn block(&self, first: usize) -> [f64; 9] {
         let (dim, mut block) = (self.dim, [0.0; 9]);
         for j in 0..dim {
-            let (rows, values) = column(&self.lower, first + j);
-            for (&i, &value) in rows.iter().zip(values).take_while(|(i, _)| **i < first + dim) {
+            let column = entries_of(&self.lower, first + j);
+            for (i, value) in column.take_while(|(i, _)| *i < first + dim) {
                 (block[i - first + dim * j], block[j + dim * (i - first)]) = (value, value);
             }
         }

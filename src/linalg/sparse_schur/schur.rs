@@ -8,7 +8,7 @@ use super::solve;
 use super::structure::Structure;
 use crate::linalg::free_motions::{Doubt, Whole, settle, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
-use crate::linalg::sparse_matrix::{Csc, diagonal, symmetric_magnitude, symmetric_times};
+use crate::linalg::sparse_matrix::{Csc, diagonals, symmetric_magnitude, symmetric_times};
 use crate::linalg::vector::{dot, largest_of, sizes};
 use crate::linalg::watched::GoesOn;
 
@@ -42,8 +42,7 @@ impl SparseSchur {
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
         let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
-        let kept = (eliminated..lower.ncols()).map(|j| diagonal(&lower, j).unwrap_or_default());
-        let mut units: Vec<f64> = kept.collect();
+        let mut units: Vec<f64> = diagonals(&lower).skip(eliminated).collect();
         // A component of a rigid body has no stiffness of its own: the stiffest other one is its unit.
         let largest = largest_of(units.iter().copied());
         let of_rigid = if largest > 0.0 { largest } else { 1.0 };

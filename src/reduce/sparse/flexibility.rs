@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::host_arrays::SparseMatrix;
 use super::host_matrix::check_diagonal;
 use crate::error::Error;
-use crate::linalg::sparse_matrix::{Csc, diagonal, entries};
+use crate::linalg::sparse_matrix::{Csc, diagonals, entries};
 use crate::linalg::tolerances::AGREES;
 use crate::problem::symmetric_matrix::beyond_diagonal;
 use crate::problem::{
@@ -54,8 +54,7 @@ impl SparseW {
 
 /// Refuses entries that the diagonal does not allow.
 fn check_entries(lower: &Csc) -> Result<(), Error> {
-    let root: Vec<f64> =
-        (0..lower.ncols()).map(|j| diagonal(lower, j).unwrap_or(0.0).sqrt()).collect();
+    let root: Vec<f64> = diagonals(lower).map(f64::sqrt).collect();
     for (i, j, value) in entries(lower).filter(|(i, j, _)| i != j) {
         let scale = root[i] * root[j];
         if value.abs() > (1.0 + AGREES) * scale {

@@ -11,7 +11,7 @@ use super::control::Asked;
 use crate::error::{Argument, Error};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
-    Csc, column, diagonal, symmetric_magnitude, symmetric_residual, symmetric_times,
+    Csc, diagonals, symmetric_magnitude, symmetric_residual, symmetric_times, value_at,
 };
 use crate::linalg::sparse_schur::{Failure, Plan, Values};
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, Solved, StiffnessOperator};
@@ -58,8 +58,7 @@ impl FullSpace {
         let copy = entry * matrix.compute_nnz() + VECTORS * size_of::<f64>() * matrix.ncols();
         let factor_bytes = cholesky.bytes + copy as u64;
         asked.needs(factor_bytes.saturating_add(case))?;
-        let units: Vec<f64> =
-            (0..matrix.ncols()).map(|j| diagonal(&matrix, j).unwrap_or_default()).collect();
+        let units: Vec<f64> = diagonals(&matrix).collect();
         let held_set = HeldSet::all(dim, (matrix.ncols() - inner) / dim);
         let (kept, last) = (Mutex::default(), LastCase::default());
         let mut space = FullSpace { matrix, inner, dim, units, cholesky, factor_bytes, kept, last };
@@ -193,9 +192,7 @@ impl StiffnessOperator for InUse<'_> {
     }
 
     fn coupling(&self, i: usize, j: usize) -> f64 {
-        let (row, place) = (self.space.inner + i.max(j), self.space.inner + i.min(j));
-        let (rows, values) = column(&self.space.matrix, place);
-        rows.binary_search(&row).map_or(0.0, |place| values[place])
+        value_at(&self.space.matrix, self.space.inner + i.max(j), self.space.inner + i.min(j))
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {

@@ -4,7 +4,7 @@ use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
 use crate::error::{Error, entry, number};
 use crate::linalg::sparse_matrix::{
-    Columns, Csc, OutOfMemory, both, column, diagonal, entries, transposed,
+    Columns, Csc, OutOfMemory, both, column, diagonal, entries, transposed, value_at,
 };
 use crate::linalg::tolerances::AGREES;
 use crate::reduce::probes::refuse;
@@ -114,8 +114,7 @@ impl SparseMatrix<'_> {
 /// Compares a matrix with its transpose. Their patterns may differ: an assembly that drops zeros keeps
 /// the rounding of one entry and not that of its mirror image.
 fn check_symmetry(name: &str, full: &Csc, transposed: &Csc) -> Result<(), Error> {
-    let root: Vec<f64> =
-        (0..full.ncols()).map(|i| full.get(i, i).copied().unwrap_or_default().sqrt()).collect();
+    let root: Vec<f64> = (0..full.ncols()).map(|i| value_at(full, i, i).sqrt()).collect();
     for j in 0..full.ncols() {
         for (i, below, above) in both(full, transposed, j, j + 1) {
             let scale = root[i] * root[j];
