@@ -173,9 +173,7 @@ fn candidates(
     let size = root.len();
     // Takes away the forces, scaled, on the independent components.
     let correct = |scaled: &mut [f64], forces: &dyn Fn(usize) -> f64| {
-        let mut y: Vec<f64> = factor.independent.iter().map(|&i| forces(i)).collect();
-        factor.solve(&mut y);
-        factor.independent.iter().zip(&y).for_each(|(&i, y)| scaled[i] -= y);
+        factor.solution(forces).into_iter().for_each(|(i, y)| scaled[i] -= y);
     };
     let candidate = |&dependent: &usize| {
         let mut scaled = vec![0.0; size];

@@ -61,12 +61,13 @@ impl PivotedCholesky {
         })
     }
 
-    /// Overwrites `y`, in the order of [`Self::independent`], with `A⁻¹ y` on these rows.
-    pub fn solve(&self, y: &mut [f64]) {
-        let mut y = as_column_mut(y);
-        let lower = self.lower();
-        Triangle::Lower.solve(lower, y.as_mut());
-        Triangle::Upper.solve(lower.transpose(), y);
+    /// `A⁻¹ b` on the independent rows: each row with its component. `b(row)` is asked for these rows alone.
+    pub fn solution(&self, b: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
+        let mut y: Vec<f64> = self.independent.iter().map(|&i| b(i)).collect();
+        let (lower, mut column) = (self.lower(), as_column_mut(&mut y));
+        Triangle::Lower.solve(lower, column.as_mut());
+        Triangle::Upper.solve(lower.transpose(), column);
+        self.independent.iter().copied().zip(y).collect()
     }
 
     /// The factor of the independent rows.

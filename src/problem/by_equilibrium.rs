@@ -86,11 +86,9 @@ impl ByEquilibrium {
 
     /// Overwrites the right side above with these variables; those that nothing tells are zero.
     pub(super) fn solve(&self, right: &mut [f64]) {
-        let rows = &self.factor.independent;
-        let mut y: Vec<f64> = rows.iter().map(|&k| self.scale[k] * right[k]).collect();
-        self.factor.solve(&mut y);
+        let found = self.factor.solution(|k| self.scale[k] * right[k]);
         right.fill(0.0);
-        rows.iter().zip(&y).for_each(|(&k, y)| right[k] = self.scale[k] * y);
+        found.into_iter().for_each(|(k, y)| right[k] = self.scale[k] * y);
     }
 }
 

@@ -65,10 +65,7 @@ impl<'p> FreeBlock<'p> {
 
     /// Adds to the independent rows of `d` what makes `K d = load` there, given `K d - load`.
     fn correct(&self, excess: &[f64], d: &mut [f64]) {
-        let rows = &self.factor.independent;
-        let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * excess[self.rows[i]]).collect();
-        self.factor.solve(&mut y);
-        for (&i, y) in rows.iter().zip(&y) {
+        for (i, y) in self.factor.solution(|i| self.scale[i] * excess[self.rows[i]]) {
             d[self.rows[i]] -= self.scale[i] * y;
         }
     }

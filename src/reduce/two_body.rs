@@ -113,11 +113,8 @@ impl TwoBodyReduction {
 
     /// `(K_A + K_B)⁻¹ b`.
     fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let rows = &self.sum.independent;
-        let mut y: Vec<f64> = rows.iter().map(|&i| self.scale[i] * b[i]).collect();
-        self.sum.solve(&mut y);
         let mut x = vec![0.0; self.size];
-        for (&i, y) in rows.iter().zip(&y) {
+        for (i, y) in self.sum.solution(|i| self.scale[i] * b[i]) {
             x[i] = self.scale[i] * y;
         }
         x
