@@ -82,9 +82,8 @@ impl<'c> Elimination<'c> {
             sum.push((count + i, -1.0));
             sums.push(sum);
         }
-        let largest = |sum: &Terms| sum.iter().map(|(_, a)| a.abs()).fold(0.0, f64::max);
-        let largest_unknown = |sum: &Terms| largest(&sum[..sum.len() - 1].to_vec());
-        let scale = sums.iter().map(largest_unknown).collect();
+        // The right side comes last.
+        let scale = sums.iter().map(|sum| largest(&sum[..sum.len() - 1])).collect();
         let is_open = vec![true; sums.len()];
         let order = Vec::new();
         Elimination { count, may_choose, least, sums, scale, is_open, having, order }
@@ -219,8 +218,16 @@ impl<'c> Elimination<'c> {
     }
 }
 
+/// The largest size of a coefficient.
+pub fn largest(terms: &[(usize, f64)]) -> f64 {
+    terms.iter().map(|(_, a)| a.abs()).fold(0.0, f64::max)
+}
+
 /// Terms in which the unknowns that are found are replaced.
-fn replaced(terms: impl Iterator<Item = (usize, f64)>, found: &BTreeMap<usize, Terms>) -> Terms {
+pub fn replaced(
+    terms: impl IntoIterator<Item = (usize, f64)>,
+    found: &BTreeMap<usize, Terms>,
+) -> Terms {
     let mut sum = Terms::new();
     for (k, a) in terms {
         match found.get(&k) {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::error::{Argument, Error, MOST_NAMED, index};
-use crate::linalg::row_elimination::{Terms, gathered};
+use crate::linalg::row_elimination::{Terms, gathered, replaced};
 
 /// `u[dependent] = sum coefficient * u[dof]`, equation by equation; one without terms says `u[dependent] = 0`.
 ///
@@ -167,17 +167,8 @@ impl Dependents {
 
     /// Terms in which dependents are replaced.
     pub(super) fn replaced(&self, terms: Terms) -> Terms {
-        if !terms.iter().any(|(dof, _)| self.have(*dof)) {
-            return terms;
-        }
-        let mut sum = Terms::new();
-        for (dof, a) in terms {
-            match self.terms.get(&dof) {
-                Some(of) => sum.extend(of.iter().map(|(other, b)| (*other, a * b))),
-                None => sum.push((dof, a)),
-            }
-        }
-        gathered(sum)
+        let names_some = terms.iter().any(|(dof, _)| self.have(*dof));
+        if names_some { replaced(terms, &self.terms) } else { terms }
     }
 
     /// The degrees of freedom below `size` that may have no stiffness of their own: dependents, and those of which they are

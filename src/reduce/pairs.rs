@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::equations::{Dependents, Equations, refuse};
 use super::frame::Frame;
 use crate::error::{Error, index, number};
-use crate::linalg::row_elimination::{Terms, gathered};
+use crate::linalg::row_elimination::{Terms, gathered, largest};
 use crate::linalg::tolerances::{AGREES, ROUNDING};
 use crate::linalg::vector::{first_not_finite, norm_inf};
 use crate::problem::checked_dim;
@@ -87,8 +87,7 @@ impl ContactPairs<'_> {
     /// The equations of a pair, by axis. One that is rounding beside the others tells nothing.
     fn equations(&self, pair: usize) -> impl Iterator<Item = Terms> {
         let mut equations: Vec<Terms> = (0..self.dim).map(|axis| self.terms(pair, axis)).collect();
-        let largest = |terms: &Terms| terms.iter().map(|(_, a)| a.abs()).fold(0.0, f64::max);
-        let most = equations.iter().map(largest).fold(0.0, f64::max);
+        let most = equations.iter().map(|terms| largest(terms)).fold(0.0, f64::max);
         equations.iter_mut().filter(|terms| largest(terms) <= ROUNDING * most).for_each(Vec::clear);
         equations.into_iter()
     }
