@@ -15,6 +15,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::dependence::{Dependence, unit_of_pair, units};
+use crate::linalg::columns::Columns;
 use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
@@ -37,22 +38,20 @@ fn entries(dependence: &Dependence) -> impl Iterator<Item = (usize, usize, f64)>
     })
 }
 
-/// `1 / sqrt(K_kk)` of these variables, with a unit of those that nothing resists, and the upper left corner of a matrix of `size` rows
-/// with their scaled `K_hh`.
+/// `1 / sqrt(K_kk)` of these variables, with a unit of those that nothing resists, and a matrix of `size` rows whose upper
+/// left corner is their scaled `K_hh`.
 fn scaled(
     dependence: &Dependence,
     (stiffness, otherwise): (&Matrix<'_>, f64),
     size: usize,
-) -> (Vec<f64>, Vec<f64>) {
-    let own = dependence.told()..dependence.variables();
+) -> (Vec<f64>, Columns) {
+    let first = dependence.told();
     let of_variable = |k| stiffness.unit(k, 1, otherwise).sqrt().recip();
-    let scale: Vec<f64> = own.clone().map(of_variable).collect();
-    let mut matrix = vec![0.0; size * size];
-    for (column, (l, of_column)) in
-        matrix.chunks_exact_mut(size.max(1)).zip(own.clone().zip(&scale))
-    {
-        for (entry, (k, of_row)) in column.iter_mut().zip(own.clone().zip(&scale)) {
-            *entry = of_row * stiffness.at(k, l) * of_column;
+    let scale: Vec<f64> = (first..dependence.variables()).map(of_variable).collect();
+    let mut matrix = Columns::zeros(size, size);
+    for l in 0..scale.len() {
+        for k in 0..scale.len() {
+            matrix[(k, l)] = scale[k] * stiffness.at(first + k, first + l) * scale[l];
         }
     }
     (scale, matrix)
@@ -76,10 +75,10 @@ impl ByEquilibrium {
         }
         for (i, row) in of_row.iter().enumerate() {
             for &(k, b) in row {
-                row.iter().for_each(|&(l, c)| matrix[k + size * l] += units(i) * b * c);
+                row.iter().for_each(|&(l, c)| matrix[(k, l)] += units(i) * b * c);
             }
         }
-        let entry = |k: usize, l: usize| matrix[k + size * l];
+        let entry = |k: usize, l: usize| matrix[(k, l)];
         let factor = PivotedCholesky::within(size, NEGLIGIBLE, entry, &mut || true)?;
         Some(ByEquilibrium { scale, factor: Arc::new(factor) })
     }
@@ -118,13 +117,11 @@ impl<'d> OfLeastEnergy<'d> {
         for (i, k, c) in entries(dependence) {
             let place = rows.partition_point(|(row, _)| *row < i);
             let (scaled, place) = (rows[place].1 * c * scale[k], size + place);
-            (matrix[place + all * k], matrix[k + all * place]) = (scaled, scaled);
+            (matrix[(place, k)], matrix[(k, place)]) = (scaled, scaled);
         }
         // Displacements in doubles tell a variable as well as that.
-        (size..all).for_each(|i| matrix[i + all * i] = -f64::EPSILON);
-        let fill = |j: usize, column: &mut [f64]| {
-            column.copy_from_slice(&matrix[all * j..all * (j + 1)]);
-        };
+        (size..all).for_each(|i| matrix[(i, i)] = -f64::EPSILON);
+        let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(matrix.column(j));
         let factor = Factor::new(all, false, 0.0, fill, &mut || true);
         OfLeastEnergy { dependence, stiffness, scale, rows, factor }
     }
