@@ -62,7 +62,7 @@ impl Elimination {
 
     /// The matrix `K_CC - X Xᵀ` of what is kept.
     pub fn schur(&self) -> Matrix<'_> {
-        Matrix::new(self.kept.len(), &self.schur, self.kept.len())
+        Matrix::contiguous(self.kept.len(), &self.schur)
     }
 
     /// `X L⁻¹ b`: what a load `b` on the components `O` takes from the load on `C`.

@@ -35,9 +35,20 @@ impl<'a> Matrix<'a> {
         Matrix { size, entries, ld }
     }
 
+    /// Views columns that stand one behind the other.
+    pub fn contiguous(size: usize, entries: &'a [f64]) -> Self {
+        Matrix { size, entries, ld: size }
+    }
+
     /// Number of rows and columns.
     pub fn size(&self) -> usize {
         self.size
+    }
+
+    /// All entries, column by column.
+    pub fn entries(&self) -> impl Iterator<Item = f64> {
+        let Matrix { size, entries, ld } = *self;
+        (0..size).flat_map(move |j| &entries[j * ld..j * ld + size]).copied()
     }
 
     /// Column `j`.

@@ -106,7 +106,7 @@ impl<'d> OfLeastEnergy<'d> {
     /// `stiffness` is `K`, column-major.
     pub(crate) fn new(dependence: &'d Dependence, stiffness: &'d [f64]) -> Self {
         let variables = dependence.variables();
-        let stiffness = Matrix::new(variables, stiffness, variables.max(1));
+        let stiffness = Matrix::contiguous(variables, stiffness);
         let named: BTreeSet<usize> = entries(dependence).map(|(i, _, _)| i).collect();
         let units = units(dependence, (&stiffness, 1.0));
         let root = |i| unit_of_pair(&units, dependence.dim, i).sqrt();

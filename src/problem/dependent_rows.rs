@@ -53,8 +53,7 @@ impl<'a> DependentRows<'a> {
         offset: &'a [f64],
         of_rigid: f64,
     ) -> Self {
-        let size = dependence.variables();
-        let stiffness = Matrix::new(size, stiffness, size.max(1));
+        let stiffness = Matrix::contiguous(dependence.variables(), stiffness);
         let units = units(dependence, (&stiffness, of_rigid));
         let mut relative_load = dependence.on_relative(load);
         let offsets = units.iter().zip(offset).map(|(unit, offset)| unit * offset);

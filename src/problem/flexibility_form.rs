@@ -44,7 +44,7 @@ impl FlexibilityForm<'_> {
         let of_pair = |first: usize| match self {
             FlexibilityForm::Dense(matrix) => units_of_pair(&matrix.block(first, dim), largest),
             FlexibilityForm::Sparse(matrix) => {
-                units_of_pair(&Matrix::new(dim, &matrix.block(first), dim), largest)
+                units_of_pair(&Matrix::contiguous(dim, &matrix.block(first)), largest)
             }
         };
         let each = (0..size).step_by(dim).map(of_pair);

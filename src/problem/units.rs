@@ -123,7 +123,7 @@ impl ChangesUnits for Stiffness<'_> {
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
         let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.force.all(self.load)?);
-        let matrix = Matrix::new(self.size(), &matrix, self.size().max(1));
+        let matrix = Matrix::contiguous(self.size(), &matrix);
         let Stiffness { symmetric, rounding, .. } = *self;
         let scaled = Stiffness::new(matrix, &load, self.dim);
         Some(work(Stiffness { symmetric, rounding, ..scaled }))
@@ -138,7 +138,7 @@ impl ChangesUnits for Flexibility<'_> {
         let form = match &self.form {
             FlexibilityForm::Dense(matrix) => {
                 entries = dense(matrix, -units.stiffness())?;
-                FlexibilityForm::Dense(Matrix::new(matrix.size(), &entries, matrix.size().max(1)))
+                FlexibilityForm::Dense(Matrix::contiguous(matrix.size(), &entries))
             }
             FlexibilityForm::Sparse(matrix) => {
                 let value = |value| exactly(value, -units.stiffness());
@@ -180,6 +180,5 @@ fn all(values: &[f64], power: i32) -> Option<Vec<f64>> {
 
 /// The entries of a matrix times a power of two, column-major.
 fn dense(matrix: &Matrix<'_>, power: i32) -> Option<Vec<f64>> {
-    let columns = (0..matrix.size()).flat_map(|j| matrix.column(j));
-    columns.map(|&value| exactly(value, power)).collect()
+    matrix.entries().map(|value| exactly(value, power)).collect()
 }

@@ -29,7 +29,7 @@ impl CondensedReduction {
         go_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
         let settled = settled(dim, matrix, ("K", Argument::Matrix), go_on)?;
-        let stiffness = settled.unwrap_or_else(|| contiguous(matrix));
+        let stiffness = settled.unwrap_or_else(|| matrix.entries().collect());
         Ok(CondensedReduction { size: matrix.size(), stiffness })
     }
 }
@@ -59,12 +59,7 @@ pub(super) fn settled(
 
 /// The matrix without rounding, if there is one, or as it was given.
 pub(super) fn view<'k>(given: &Matrix<'k>, cleaned: &'k Option<Vec<f64>>) -> Matrix<'k> {
-    let size = given.size();
-    cleaned.as_ref().map_or(*given, |cleaned| Matrix::new(size, cleaned, size.max(1)))
-}
-
-fn contiguous(matrix: &Matrix<'_>) -> Vec<f64> {
-    (0..matrix.size()).flat_map(|j| matrix.column(j).iter().copied()).collect()
+    cleaned.as_ref().map_or(*given, |cleaned| Matrix::contiguous(given.size(), cleaned))
 }
 
 /// The matrix without what rounding made of free motions; `None` if it is to be taken as it is, or where `goes_on`
@@ -76,7 +71,7 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Opt
         return None;
     }
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
-    let mut stiffness = contiguous(matrix);
+    let mut stiffness: Vec<f64> = matrix.entries().collect();
     let is_sound = units.iter().all(|&unit| unit > 0.0)
         && first_not_finite(&stiffness).is_none()
         && is_symmetric_beside(matrix, &root);

@@ -9,11 +9,11 @@ use crate::linalg::matrix::Matrix;
 use crate::problem::{Flexibility, FlexibilityForm, SparseW};
 
 /// The flexibility of pairs. Loads of the host are free displacements `q`, and displacements are `d`.
-pub struct FlexibilityReduction {
-    size: usize,
-    /// All entries, column-major, of a dense `W`.
-    dense: Vec<f64>,
-    sparse: Option<SparseW>,
+pub enum FlexibilityReduction {
+    /// The number of rows, and all entries, column-major.
+    Dense(usize, Vec<f64>),
+    /// The entries that are stored.
+    Sparse(SparseW),
 }
 
 impl FlexibilityReduction {
@@ -23,8 +23,7 @@ impl FlexibilityReduction {
     /// As [`crate::FlexibilityProblem::from_flexibility`] of the matrix.
     pub fn dense(size: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
         let matrix = Flexibility::checked_matrix(size, (w, ld))?;
-        let dense = (0..size).flat_map(|j| matrix.column(j).to_vec()).collect();
-        Ok(FlexibilityReduction { size, dense, sparse: None })
+        Ok(FlexibilityReduction::Dense(size, matrix.entries().collect()))
     }
 
     /// A sparse matrix.
@@ -32,21 +31,24 @@ impl FlexibilityReduction {
     /// # Errors
     /// As [`crate::FlexibilityProblem::from_sparse`] of the matrix.
     pub fn sparse(dim: usize, pairs: usize, w: &SparseMatrix<'_>) -> Result<Self, Error> {
-        let sparse = SparseW::from_sparse(dim, pairs, w)?;
-        let size = sparse.size();
-        Ok(FlexibilityReduction { size, dense: Vec::new(), sparse: Some(sparse) })
+        SparseW::from_sparse(dim, pairs, w).map(FlexibilityReduction::Sparse)
     }
 }
 
 impl Reduction for FlexibilityReduction {
     fn flexibility(&self) -> Option<FlexibilityForm<'_>> {
-        let dense =
-            || FlexibilityForm::Dense(Matrix::new(self.size, &self.dense, self.size.max(1)));
-        let sparse = |w| FlexibilityForm::Sparse(Cow::Borrowed(w));
-        Some(self.sparse.as_ref().map_or_else(dense, sparse))
+        Some(match self {
+            Self::Dense(size, entries) => {
+                FlexibilityForm::Dense(Matrix::contiguous(*size, entries))
+            }
+            Self::Sparse(w) => FlexibilityForm::Sparse(Cow::Borrowed(w)),
+        })
     }
 
     fn host_size(&self) -> usize {
-        self.size
+        match self {
+            Self::Dense(size, _) => *size,
+            Self::Sparse(w) => w.size(),
+        }
     }
 }

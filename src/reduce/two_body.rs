@@ -68,7 +68,7 @@ impl TwoBodyReduction {
         let cleaned_first = settled(dim, &first, ("K_A", Argument::Matrix), go_on)?;
         let cleaned_second = settled(dim, &second, ("K_B", Argument::SecondMatrix), go_on)?;
         let (first, second) = (view(&first, &cleaned_first), view(&second, &cleaned_second));
-        let trace = |k: &Matrix<'_>| (0..size).map(|i| k.column(i)[i]).sum::<f64>();
+        let trace = |k: &Matrix<'_>| (0..size).map(|i| k.at(i, i)).sum::<f64>();
         let exchanged = trace(&first) < trace(&second);
         let (first, second) = if exchanged { (second, first) } else { (first, second) };
         let second_units = second.units(dim);
@@ -81,8 +81,7 @@ impl TwoBodyReduction {
             );
             return Err(Error::invalid(Argument::Matrix, message));
         }
-        let entry =
-            |i: usize, j: usize| scale[i] * (first.column(j)[i] + second.column(j)[i]) * scale[j];
+        let entry = |i: usize, j: usize| scale[i] * (first.at(i, j) + second.at(i, j)) * scale[j];
         // A work that is ended tells no error.
         let not_semidefinite =
             || Error::invalid(Argument::Matrix, "K_A + K_B is not positive semi-definite");
@@ -94,14 +93,10 @@ impl TwoBodyReduction {
                 format!("neither body resists a common motion of component {}", index(free)),
             ));
         }
-        let stiffness = sum.schur_complement(
-            size,
-            |i, j| scale[i] * second.column(j)[i],
-            |i, j| second.column(j)[i],
-            go_on,
-        );
+        let coupling = |i: usize, j: usize| scale[i] * second.at(i, j);
+        let stiffness = sum.schur_complement(size, coupling, |i, j| second.at(i, j), go_on);
         let stiffness = stiffness.ok_or_else(not_semidefinite)?;
-        let second = (0..size).flat_map(|j| second.column(j).iter().copied()).collect();
+        let second = second.entries().collect();
         Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
     }
 
@@ -122,7 +117,7 @@ impl TwoBodyReduction {
 
     /// `K_B x`.
     fn times_second(&self, x: &[f64]) -> Vec<f64> {
-        Matrix::new(self.size, &self.second, self.size.max(1)).product(x)
+        Matrix::contiguous(self.size, &self.second).product(x)
     }
 }
 
