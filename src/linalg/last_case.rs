@@ -12,11 +12,10 @@ pub struct LastCase(Mutex<Option<[Vec<f64>; 2]>>);
 impl LastCase {
     /// Keeps the result of a case. The reserve of a call holds nothing that outlives it.
     pub fn keep(&self, case: &[f64], result: &[f64]) {
-        if !shortage::is_noted() {
-            let last = [case.to_vec(), result.to_vec()];
-            if let Ok(mut place) = self.0.try_lock() {
-                *place = Some(last);
-            }
+        if !shortage::is_noted()
+            && let Ok(mut place) = self.0.try_lock()
+        {
+            *place = Some([case.to_vec(), result.to_vec()]);
         }
     }
 

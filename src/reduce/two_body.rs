@@ -13,6 +13,7 @@
 //! the softer one, so that `K_rel` is not the small difference of large numbers.
 
 use super::condensed::{settled, view};
+use super::probes::refuse;
 use super::{HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
@@ -75,11 +76,10 @@ impl TwoBodyReduction {
         let units = first.units(dim).into_iter().zip(second_units).map(|(a, b)| a + b);
         let scale: Vec<f64> = units.map(|unit| unit.sqrt().recip()).collect();
         if let Some(i) = scale.iter().position(|&scale| scale == 0.0) {
-            let message = format!(
+            return refuse(format!(
                 "K_A + K_B: component {} overflows; choose units in which it is smaller",
                 index(i)
-            );
-            return Err(Error::invalid(Argument::Matrix, message));
+            ));
         }
         let entry = |i: usize, j: usize| scale[i] * (first.at(i, j) + second.at(i, j)) * scale[j];
         // A work that is ended tells no error.
@@ -88,10 +88,8 @@ impl TwoBodyReduction {
         let sum = PivotedCholesky::within(size, NEGLIGIBLE, entry, go_on);
         let sum = sum.ok_or_else(not_semidefinite)?;
         if let Some(&free) = sum.dependent.first() {
-            return Err(Error::invalid(
-                Argument::Matrix,
-                format!("neither body resists a common motion of component {}", index(free)),
-            ));
+            let free = index(free);
+            return refuse(format!("neither body resists a common motion of component {free}"));
         }
         let coupling = |i: usize, j: usize| scale[i] * second.at(i, j);
         let stiffness = sum.schur_complement(size, coupling, |i, j| second.at(i, j), go_on);

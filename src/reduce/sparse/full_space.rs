@@ -8,13 +8,15 @@ use std::mem::take;
 use std::sync::{Mutex, PoisonError};
 
 use super::control::Asked;
-use crate::error::{Argument, Error};
+use crate::error::Error;
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{
     Csc, diagonals, symmetric_magnitude, symmetric_residual, symmetric_times, value_at,
 };
 use crate::linalg::sparse_schur::{Failure, Plan, Values};
+use crate::linalg::vector::opposite;
 use crate::problem::{GoesOn, HeldSet, SOLUTIONS, Solved, StiffnessOperator};
+use crate::reduce::probes::refuse;
 
 /// Where bodies move freely with the components that are held, springs of this part of their units hold them in
 /// the factor, the first with which it exists. Solutions are approximate then.
@@ -118,12 +120,16 @@ impl FullSpace {
             return Ok(None);
         }
         let Some(x) = user.solve(None, loads, goes_on)? else { return Ok(None) };
-        let (size, mut condensed) = (self.matrix.ncols().max(1), Vec::new());
-        for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
-            let residual = symmetric_residual(&self.matrix, (x, &[]), load);
-            condensed.extend(residual[self.inner..].iter().map(|force| -force));
-        }
-        Ok(Some(condensed))
+        let residuals = self.residuals(&x, loads);
+        let own = residuals.chunks_exact(self.matrix.ncols().max(1));
+        Ok(Some(own.flat_map(|residual| opposite(&residual[self.inner..])).collect()))
+    }
+
+    /// `A x - b` of each of the loads, one behind the other.
+    fn residuals(&self, x: &[f64], loads: &[f64]) -> Vec<f64> {
+        let size = self.matrix.ncols().max(1);
+        let each = x.chunks_exact(size).zip(loads.chunks_exact(size));
+        each.flat_map(|(x, load)| symmetric_residual(&self.matrix, (x, &[]), load)).collect()
     }
 
     /// All unknowns of loads where those of the pairs are `d`. Of several load cases, each argument has its
@@ -134,9 +140,9 @@ impl FullSpace {
         }
         let mut user = self.in_use();
         if !user.hold_all(&mut || true)? {
-            let message =
+            let wrong =
                 "the bodies cannot be told from bodies that fall apart where the pairs are held";
-            return Err(Error::invalid(Argument::Matrix, message));
+            return refuse(wrong.into());
         }
         let size = self.matrix.ncols().max(1);
         let mut x = vec![0.0; loads.len()];
@@ -146,10 +152,7 @@ impl FullSpace {
         }
         // A second step: the digits that the rounding of the first one has cost.
         for _ in 0..SOLUTIONS {
-            let mut residuals = Vec::with_capacity(x.len());
-            for (x, load) in x.chunks_exact(size).zip(loads.chunks_exact(size)) {
-                residuals.extend(symmetric_residual(&self.matrix, (x, &[]), load));
-            }
+            let residuals = self.residuals(&x, loads);
             let steps = user.solve(None, &residuals, &mut || true)?.unwrap_or_default();
             for (x, step) in x.chunks_exact_mut(size).zip(steps.chunks_exact(size)) {
                 x.iter_mut().zip(step).take(self.inner).for_each(|(x, step)| *x -= step);
