@@ -83,12 +83,7 @@ fn check_across(
             let (below, above) = (entry(name, [i, j]), entry(name, [j, i]));
             let remedy =
                 format!("average {below} and {above}, or compute both in double precision");
-            format!(
-                "{name} is not symmetric: {below} is {}, {above} is {}: {}",
-                number(lower),
-                number(upper),
-                difference(apart / scale, &remedy)
-            )
+            not_symmetric(name, (i, j), (lower, upper), scale, &remedy)
         } else if lower.abs() > (1.0 + AGREES) * scale {
             beyond_diagonal(name, (i, j), lower, scale)
         } else {
@@ -192,12 +187,22 @@ fn check_columns(
 /// (6e-8) or printed with seven digits (5e-7); more is another mistake.
 const SINGLE_PRECISION: f64 = 1e-6;
 
-/// How far two entries that mirror each other differ, relative to what the diagonal allows, and the
+/// How far two entries that mirror each other differ, relative to `scale`, which the diagonal allows them to be, and the
 /// `remedy` if it is the rounding of single precision.
-pub(crate) fn difference(relative: f64, remedy: &str) -> String {
-    if !relative.is_finite() {
-        return "beside a zero on the diagonal both must be zero".into();
-    }
-    let said = format!("they differ by {relative:.0e} of the diagonal, {AGREES:.0e} is allowed");
-    if relative <= SINGLE_PRECISION { format!("{said}: {remedy}") } else { said }
+pub(crate) fn not_symmetric(
+    name: &str,
+    (i, j): (usize, usize),
+    (below, above): (f64, f64),
+    scale: f64,
+    remedy: &str,
+) -> String {
+    let relative = (below - above).abs() / scale;
+    let difference = match relative.is_finite() {
+        true => format!("they differ by {relative:.0e} of the diagonal, {AGREES:.0e} is allowed"),
+        false => "beside a zero on the diagonal both must be zero".into(),
+    };
+    let remedy = if relative <= SINGLE_PRECISION { format!(": {remedy}") } else { String::new() };
+    let (lower, upper) = (entry(name, [i, j]), entry(name, [j, i]));
+    let (below, above) = (number(below), number(above));
+    format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}{remedy}")
 }

@@ -102,19 +102,16 @@ pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) ->
 /// Two entries that mirror each other differ; `scale` is what the diagonal allows them to be.
 pub(super) fn not_symmetric(
     name: &str,
-    (i, j): (usize, usize),
+    place: (usize, usize),
     (below, above): (f64, f64),
     scale: f64,
 ) -> String {
     let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
-    let difference = symmetric_matrix::difference((below - above).abs() / scale, remedy);
-    let (lower, upper) = (entry(name, [i, j]), entry(name, [j, i]));
     let stored = match [below, above].contains(&0.0) {
         true => "; if one triangle is stored, triangle must name it",
         false => "",
     };
-    let (below, above) = (number(below), number(above));
-    format!("{name} is not symmetric: {lower} is {below}, {upper} is {above}: {difference}{stored}")
+    symmetric_matrix::not_symmetric(name, place, (below, above), scale, remedy) + stored
 }
 
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
