@@ -163,9 +163,9 @@ impl<'r> KeptRows<'r> {
         let mut held = vec![false; dim * frames.len()];
         supports.iter().for_each(|support| held[support.component] = true);
         let mut kept = 0;
-        let mut next = || {
-            kept += 1;
-            kept - 1
+        let mut next = |count: usize| {
+            kept += count;
+            kept - count
         };
         let places: Vec<RowPlace> = (0..frames.len())
             .map(|pair| {
@@ -173,13 +173,10 @@ impl<'r> KeptRows<'r> {
                 let independent = (0..dim).filter(|&axis| is_independent(axis)).count();
                 let own = &held[dim * pair..dim * (pair + 1)];
                 if independent + own.iter().filter(|held| **held).count() == dim {
-                    let first = next();
-                    (1..dim).for_each(|_| _ = next());
-                    RowPlace::Frame(first)
+                    RowPlace::Frame(next(dim))
                 } else {
-                    RowPlace::Axes(
-                        (0..dim).map(|axis| is_independent(axis).then(&mut next)).collect(),
-                    )
+                    let place = |axis: usize| is_independent(axis).then(|| next(1));
+                    RowPlace::Axes((0..dim).map(place).collect())
                 }
             })
             .collect();
@@ -245,37 +242,31 @@ impl<'r> KeptRows<'r> {
         let (mut to_relative, mut from_relative, mut of_fixed) = (vec![], vec![], vec![]);
         let mut dependent_pairs = Vec::new();
         for (pair, place) in self.places.iter().enumerate() {
-            let places = match place {
-                RowPlace::Frame(first) => {
-                    let same = (0..self.dim).map(|i| (self.dim * pair + i, first + i, 1.0));
-                    to_relative.extend(same.clone());
-                    from_relative.extend(same);
-                    continue;
-                }
-                RowPlace::Axes(places) => places,
-            };
+            if let RowPlace::Frame(first) = place {
+                let same = (0..self.dim).map(|i| (self.dim * pair + i, first + i, 1.0));
+                to_relative.extend(same.clone());
+                from_relative.extend(same);
+                continue;
+            }
             dependent_pairs.push(pair);
             for (component, direction) in self.frames[pair].directions().enumerate() {
                 let row = self.dim * pair + component;
                 for (axis, &part) in direction.iter().enumerate() {
                     let entry = |(k, a): (usize, f64)| (row, k, part * a);
-                    match (places[axis], dependent(solved, pair, self.dim, axis)) {
-                        (Some(place), _) => {
-                            to_relative.push((row, place, part));
-                            from_relative.push((row, place, part));
-                        }
-                        (None, Some(expression)) => {
-                            let sides = self.right_sides(&expression.right_sides);
-                            to_relative.extend(sides.into_iter().map(entry));
-                            for &(dof, a) in &expression.unknowns {
-                                let (entries, place) = match self.fixed[dof] {
-                                    Some(place) => (&mut of_fixed, Some(place)),
-                                    None => (&mut to_relative, self.host(dof)),
-                                };
-                                entries.extend(place.map(|place| entry((place, a))));
-                            }
-                        }
-                        (None, None) => {}
+                    let Some(expression) = dependent(solved, pair, self.dim, axis) else {
+                        let own = self.right_side(self.dim * pair + axis).into_iter().map(entry);
+                        from_relative.extend(own.clone());
+                        to_relative.extend(own);
+                        continue;
+                    };
+                    let sides = self.right_sides(&expression.right_sides);
+                    to_relative.extend(sides.into_iter().map(entry));
+                    for &(dof, a) in &expression.unknowns {
+                        let (entries, place) = match self.fixed[dof] {
+                            Some(place) => (&mut of_fixed, Some(place)),
+                            None => (&mut to_relative, self.host(dof)),
+                        };
+                        entries.extend(place.map(|place| entry((place, a))));
                     }
                 }
             }
