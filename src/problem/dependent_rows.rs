@@ -95,16 +95,23 @@ impl<'a> DependentRows<'a> {
         let mut variables = self.dependence.of_relative(d);
         if let Some(by_equilibrium) = &self.by_equilibrium {
             let told = self.dependence.told();
-            let relative = self.relative(&variables);
-            let left = d.iter().zip(relative).enumerate();
-            let springs = left.map(|(i, (d, relative))| self.unit_of_pair(i) * (d - relative));
-            let springs = self.dependence.forces(&springs.collect::<Vec<f64>>());
+            let springs = self.dependence.forces(&self.springs(d, &variables));
             let forces = self.unbalanced(&variables, force).into_iter().zip(springs).skip(told);
             let mut others: Vec<f64> = forces.map(|(left, springs)| left + springs).collect();
             by_equilibrium.solve(&mut others);
             variables[told..].copy_from_slice(&others);
         }
         variables
+    }
+
+    /// The unit of the pair times `d - C z - o`.
+    fn springs(&self, d: &[f64], variables: &[f64]) -> Vec<f64> {
+        let left = d.iter().zip(self.relative(variables)).enumerate();
+        left.map(|(i, (d, relative))| self.unit_of_pair(i) * (d - relative)).collect()
+    }
+
+    fn unit_of_pair(&self, i: usize) -> f64 {
+        unit_of_pair(&self.units, self.dependence.dim, i)
     }
 
     /// The unbalanced part `f + Cᵀ F - K z`: a force for each variable.
@@ -129,14 +136,9 @@ impl Relation for DependentRows<'_> {
     /// `Zᵀ (K z - f - Cᵀ F)`, and the unit of the pair times `d - C z - o`, which is across it.
     fn residual(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
         let variables = self.variables(d, force);
-        let left = self.unbalanced(&variables, force);
-        let mut residual = self.dependence.on_relative(&left);
-        residual.iter_mut().for_each(|left| *left = -*left);
-        let relative = self.relative(&variables);
-        for (i, residual) in residual.iter_mut().enumerate() {
-            *residual += self.unit_of_pair(i) * (d[i] - relative[i]);
-        }
-        residual
+        let left = self.dependence.on_relative(&self.unbalanced(&variables, force));
+        let springs = self.springs(d, &variables).into_iter();
+        springs.zip(left).map(|(spring, left)| spring - left).collect()
     }
 
     fn magnitude(&self, size: &[f64]) -> Vec<f64> {
@@ -167,12 +169,6 @@ impl Relation for DependentRows<'_> {
     /// forces `Zᵀ Cᵀ F`, which move what `F` moves.
     fn size_of_force(&self, force: &[f64]) -> f64 {
         norm(force).min(norm(&self.dependence.forces(force)))
-    }
-}
-
-impl DependentRows<'_> {
-    fn unit_of_pair(&self, i: usize) -> f64 {
-        unit_of_pair(&self.units, self.dependence.dim, i)
     }
 }
 
