@@ -26,7 +26,7 @@ use crate::error::{Argument, Error};
 use crate::linalg::double_double::two_sum;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
-use crate::linalg::vector::{largest_of, norm, opposite, sizes};
+use crate::linalg::vector::{largest_of, norm, norm_of, opposite, sizes};
 
 /// The caller's arrays of a problem in flexibility form, not yet checked. Forces and displacements are in the
 /// caller's units; velocities and impulses may take their places. A dense matrix is given column-major, with the entries
@@ -174,8 +174,8 @@ impl Relation for Flexibility<'_> {
     /// the units times `W F`.
     fn size_of_force(&self, force: &[f64]) -> f64 {
         let caused = self.form.times(force);
-        let felt: Vec<f64> = caused.iter().zip(self.units()).map(|(d, unit)| unit * d).collect();
-        norm(force).min(norm(&felt))
+        let felt = norm_of(caused.iter().zip(self.units()).map(|(d, unit)| unit * d));
+        norm(force).min(felt)
     }
 }
 

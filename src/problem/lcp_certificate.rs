@@ -10,7 +10,7 @@ use crate::linalg::power_of_two::{
     OwnUnit, dot_in_own_unit, exponent, largest_exponent, times_power_of_two,
 };
 use crate::linalg::tolerances::{FEW_OPERATIONS, LEAST_WORK};
-use crate::linalg::vector::{first_not_finite, largest_of, norm, norm_of, opposite, sizes};
+use crate::linalg::vector::{dot, first_not_finite, largest_of, norm, norm_of, opposite, sizes};
 
 /// The measures of one candidate `z + low`.
 #[derive(Clone, Debug)]
@@ -64,9 +64,8 @@ impl Lcp<'_> {
         let load_unit = largest_exponent(self.q().iter().copied()).unwrap_or(0);
         let in_load = |x: f64, unit: i32| times_power_of_two(x, unit - load_unit);
         let sum = |i: usize| {
-            let of = |values: &[f64], j: usize| (self.column(j)[i], values[j]);
-            let products = (0..z.len()).map(|j| of(z, j));
-            let products = products.chain((0..low.len()).map(|j| of(low, j)));
+            let all = z.iter().enumerate().chain(low.iter().enumerate());
+            let products = all.map(|(j, z)| (self.matrix.at(i, j), *z));
             dot_in_own_unit(products.chain([(self.q()[i], 1.0)]))
         };
         let sums: Vec<OwnUnit> = (0..z.len()).map(sum).collect();
@@ -126,14 +125,12 @@ impl Lcp<'_> {
             magnitude.iter().zip(&exponents).map(|(m, &e)| scaled(m, -e)).collect();
         let size = largest_of(share.iter().zip(&mantissa).map(|(y, m)| y * m));
         // q . y in the unit of q and of the terms: (q / m) (y m).
-        let load = |i: usize| scaled(&q[i], -load_unit);
-        let most = (0..y.len()).filter(|&i| q[i] != 0.0).map(|i| -exponents[i]).max();
-        let most = most.unwrap_or(0);
-        let work: f64 =
-            (0..y.len()).map(|i| scaled(&load(i), -exponents[i] - most) * share[i]).sum();
-        let scale: f64 = (0..y.len())
-            .map(|i| scaled(&load(i), -exponents[i] - most).abs() / mantissa[i] * size)
-            .sum();
+        let loads = q.iter().zip(&exponents);
+        let most = loads.clone().filter(|(q, _)| **q != 0.0).map(|(_, e)| -e).max().unwrap_or(0);
+        let loads = loads.map(|(q, e)| scaled(&scaled(q, -load_unit), -e - most));
+        let loads: Vec<f64> = loads.collect();
+        let work = dot(&loads, &share);
+        let scale: f64 = loads.iter().zip(&mantissa).map(|(q, m)| q.abs() / m * size).sum();
         let own = dot_in_own_unit(q.iter().copied().zip(y.iter().copied()));
         work < -LEAST_WORK * scale && own.sum < -LEAST_WORK * own.terms
     }

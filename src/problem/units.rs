@@ -100,8 +100,10 @@ pub fn in_units<R: ChangesUnits, T>(
         _ => Some(value),
     });
     let parameters: Vec<f64> = parameters.collect::<Option<_>>()?;
-    let slip = problem.reference_slips().map(|slip| units.length.all(slip));
-    let slip = slip.map_or(Some(None), |slip| slip.map(Some))?;
+    let slip = match problem.reference_slips() {
+        Some(slip) => Some(units.length.all(slip)?),
+        None => None,
+    };
     problem.relation().in_units(units, |relation| {
         let (law, slip) = (law.law().with(&parameters), slip.as_deref());
         let problem = ContactProblem::with_relation(relation, problem.dim(), &gap, law, slip);

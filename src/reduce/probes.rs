@@ -2,7 +2,7 @@
 
 use crate::error::{Argument, Error, entry};
 use crate::linalg::perturbation::Perturbation;
-use crate::linalg::vector::{dot, first_not_finite, norm};
+use crate::linalg::vector::{dot, first_not_finite, norm, norm_of};
 
 /// A vector without a pattern, of either sign and sizes between 1 and 2: the same in each run. Two vectors of
 /// signs alone would hide what is wrong with few components.
@@ -59,10 +59,7 @@ pub(super) fn checked_images(
     image: impl Fn(&[f64]) -> Result<Vec<f64>, Error>,
 ) -> Result<[Vec<f64>; 2], Error> {
     let (of_x, of_y) = (image(x)?, image(y)?);
-    let apart = |a: &[f64], b: &[f64]| {
-        let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-        norm(&difference)
-    };
+    let apart = |a: &[f64], b: &[f64]| norm_of(a.iter().zip(b).map(|(a, b)| a - b));
     let size = norm(&of_x) + norm(&of_y);
     if apart(&image(x)?, &of_x) > agrees * size {
         return refuse(format!("{name} is not reproducible: the same vector gives another one"));
