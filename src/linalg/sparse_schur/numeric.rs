@@ -116,18 +116,13 @@ fn subtrees(
 impl Subtree<'_> {
     fn make(&mut self, source: Source<'_>, workspace: &mut Workspace) {
         let start = source.structure.values(self.panels.start).start;
-        for s in self.panels.clone() {
+        self.weakest = self.panels.clone().try_fold(None, |weakest, s| {
             let place = source.structure.values(s);
             let (before, rest) = self.values.split_at_mut(place.start - start);
             let before = Before { values: before, start };
-            match by_one_thread(source, s, before, &mut rest[..place.len()], workspace) {
-                Ok(weakest) => self.weakest = self.weakest.map(|other| weaker(other, weakest)),
-                Err(place) => {
-                    self.weakest = Err(place);
-                    return;
-                }
-            }
-        }
+            let other = by_one_thread(source, s, before, &mut rest[..place.len()], workspace)?;
+            Ok(weaker(weakest, other))
+        });
     }
 }
 

@@ -18,11 +18,7 @@ pub type Weakest = Option<(usize, f64)>;
 
 /// The weaker one, of equal ones the first.
 pub fn weaker(first: Weakest, second: Weakest) -> Weakest {
-    match (first, second) {
-        (Some((_, least)), Some((_, pivot))) if pivot < least => second,
-        (None, _) => second,
-        _ => first,
-    }
+    first.into_iter().chain(second).min_by(|one, other| one.1.total_cmp(&other.1))
 }
 
 /// The parts of a matrix and of its factor from which panels are made.

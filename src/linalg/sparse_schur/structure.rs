@@ -31,9 +31,8 @@ pub struct Structure {
     pub order: Vec<usize>,
     /// First column of each panel; at last the number of eliminated unknowns.
     begin: Vec<usize>,
-    row_start: Vec<usize>,
     /// Rows below the diagonal block of each panel, ascending.
-    row: Vec<usize>,
+    rows: Lists,
     value_start: Vec<usize>,
 }
 
@@ -67,8 +66,7 @@ impl Structure {
             eliminated,
             order: Vec::new(),
             begin: vec![0],
-            row_start: vec![0],
-            row: Vec::new(),
+            rows: Lists::default(),
             value_start: vec![0],
         };
         for s in 0..symbolic.n_supernodes() {
@@ -97,12 +95,10 @@ impl Structure {
             let first = self.begin[self.panels()];
             let last = end.min(first + PANEL);
             let below = end - last + rows.len();
-            self.row.try_reserve(below).map_err(|_| OutOfMemory)?;
-            self.row.extend(last..end);
-            self.row.extend_from_slice(rows);
+            self.rows.entries.try_reserve(below).map_err(|_| OutOfMemory)?;
+            self.rows.push((last..end).chain(rows.iter().copied()));
             let values = (last - first + below) * (last - first);
             self.begin.push(last);
-            self.row_start.push(self.row.len());
             self.value_start.push(self.value_start[self.value_start.len() - 1] + values);
         }
         Ok(())
@@ -144,7 +140,7 @@ impl Structure {
 
     /// Rows below the diagonal block of a panel, ascending.
     pub fn rows(&self, panel: usize) -> &[usize] {
-        &self.row[self.row_start[panel]..self.row_start[panel + 1]]
+        &self.rows.entries[self.rows.range(panel)]
     }
 
     /// Where the values of a panel stand: column by column, the diagonal block above the rows.
@@ -183,7 +179,7 @@ impl Structure {
 
     /// Bytes of the structure itself.
     pub fn bytes(&self) -> usize {
-        let numbers = self.order.len() + self.row.len() + 3 * self.begin.len();
+        let numbers = self.order.len() + self.rows.entries.len() + 3 * self.begin.len();
         numbers * size_of::<usize>()
     }
 }
