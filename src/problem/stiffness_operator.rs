@@ -104,7 +104,9 @@ pub trait StiffnessOperator {
     fn is_sparse(&self) -> bool;
 
     /// Returns `true` if components can be held: whether [`Self::hold`] may be called.
-    fn can_hold(&self) -> bool;
+    fn can_hold(&self) -> bool {
+        true
+    }
 
     /// The components that a factor holds which is there already.
     fn held_set(&self) -> Option<&HeldSet> {

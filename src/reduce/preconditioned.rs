@@ -230,10 +230,6 @@ impl StiffnessOperator for &PreconditionedReduction {
         false
     }
 
-    fn can_hold(&self) -> bool {
-        true
-    }
-
     fn remember(&mut self, load: &[f64], x: &[f64]) {
         self.last.keep(load, x);
     }

@@ -218,10 +218,6 @@ impl StiffnessOperator for InUse<'_> {
         self.space.last.keep(load, x);
     }
 
-    fn can_hold(&self) -> bool {
-        true
-    }
-
     fn held_set(&self) -> Option<&HeldSet> {
         self.factor.held_set.as_ref()
     }
