@@ -41,12 +41,7 @@ impl ApproximateInverse {
 
     /// `R x`.
     pub fn product(&self, x: &[f64]) -> Vec<f64> {
-        let mut product = vec![0.0; x.len()];
-        for (j, x) in x.iter().enumerate() {
-            let column = self.inverse.column(j);
-            product.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
-        }
-        product
+        sums_over_columns(&self.inverse, x, |entry| entry)
     }
 
     /// Bounds on `|R| g` where each entry of `g` is the rounding of inner products of a size, and a doubt.
@@ -110,12 +105,17 @@ fn tiny(n: usize) -> f64 {
 
 /// Bounds on the entries of `|A| x`, of an `x` that has no negative entry.
 fn bound_of_product(matrix: &Columns, x: &[f64]) -> Vec<f64> {
+    let sums = sums_over_columns(matrix, x, f64::abs).into_iter();
+    sums.map(|sum| sum_of_products_up(sum, x.len())).collect()
+}
+
+/// The product of what `of` makes of the entries with `x`, column by column.
+fn sums_over_columns(matrix: &Columns, x: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, x) in x.iter().enumerate() {
-        let column = matrix.column(j);
-        sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs() * x);
+        sums.iter_mut().zip(matrix.column(j)).for_each(|(sum, entry)| *sum += of(*entry) * x);
     }
-    sums.iter().map(|&sum| sum_of_products_up(sum, x.len())).collect()
+    sums
 }
 
 /// By the factors of the transpose: right-hand sides by rows need no deep stack (`small_products.rs`), and the inverse
