@@ -125,7 +125,7 @@ pub unsafe extern "C" fn signorini_model_prove(
         let radius_d = arrays.at(11, "radius_d").optional_output(radius_d, d.len())?;
         let radius_force = arrays.at(12, "radius_F").optional_output(radius_F, d.len())?;
         arrays.check_overlap()?;
-        let states = state.map(|codes| parsed_states(at_state, codes)).transpose()?;
+        let states = state.map(|codes| at_state.states(codes)).transpose()?;
         let position = |argument| given.position(argument, MEASURED);
         let proof = model.prove(&case, d, states.as_deref()).map_err(refused(position))?;
         let proof = proof.as_ref();
@@ -140,17 +140,13 @@ pub unsafe extern "C" fn signorini_model_prove(
     })
 }
 
-/// The states of pairs by their codes.
-pub(super) fn parsed_states(at: At<'_>, codes: &[i32]) -> Outcome<Vec<State>> {
-    codes.iter().enumerate().map(|of_pair| parsed_state(at, of_pair)).collect()
-}
-
-/// Refuses a code that is no state.
-pub(super) fn check_states(at: At<'_>, codes: &[i32]) -> Outcome<()> {
-    codes.iter().enumerate().try_for_each(|of_pair| parsed_state(at, of_pair).map(drop))
-}
-
-fn parsed_state(at: At<'_>, (pair, code): (usize, &i32)) -> Outcome<State> {
-    let refuse = || at.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
-    State::numbered(*code).map_or_else(refuse, Ok)
+impl At<'_> {
+    /// The states of pairs by their codes.
+    pub(super) fn states(self, codes: &[i32]) -> Outcome<Vec<State>> {
+        let parsed = |(pair, code): (usize, &i32)| {
+            let refuse = || self.refuse_entry(pair, format!("is {code}, it must be 0, 1 or 2"));
+            State::numbered(*code).map_or_else(refuse, Ok)
+        };
+        codes.iter().enumerate().map(parsed).collect()
+    }
 }

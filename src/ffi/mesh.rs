@@ -3,7 +3,6 @@
 use libc::c_char;
 
 use super::args::{Arrays, At, c_entry};
-use super::certify::check_states;
 use super::guard::{Outcome, refused};
 use super::surface_fields::{pair_results, scatter};
 use super::surface_new::SignoriniSurfacePairs;
@@ -258,7 +257,7 @@ impl Zones {
         let results = pair_results(arrays, contact, [ZONES; 4], given)?;
         let at_state = arrays.at(ZONES, "state");
         let state = at_state.optional(zone.state, contact.arrays.count)?;
-        state.map_or(Ok(()), |codes| check_states(at_state, codes))?;
+        state.map(|codes| at_state.states(codes)).transpose()?;
         let found = contact.found.fields(&results).map_err(refused(|_| ZONES))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (all, values) in self.reals.iter_mut().zip([pressure, clearance, traction, slip]) {

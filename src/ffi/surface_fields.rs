@@ -4,7 +4,6 @@
 use std::ptr::null;
 
 use super::args::{Arrays, c_entry};
-use super::certify::check_states;
 use super::guard::{Outcome, refused};
 use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
@@ -85,7 +84,7 @@ pub unsafe extern "C" fn signorini_surface_fields(
         let results = pair_results(arrays, contact, [2, 3, 4, 5], [gap, slip0, d, F])?;
         let (count, at_state) = (contact.arrays.count, arrays.at(6, "state"));
         let state = at_state.optional(state, count)?;
-        state.map_or(Ok(()), |codes| check_states(at_state, codes))?;
+        state.map(|codes| at_state.states(codes)).transpose()?;
         let at = arrays.at(7, "fields");
         let given = at.whole(fields)?;
         at.check_reserved(given.reserved)?;

@@ -7,7 +7,6 @@ use std::ptr::null;
 use libc::c_char;
 
 use super::args::{At, c_entry};
-use super::certify::parsed_states;
 use super::guard::{self, Failure, Outcome, refused};
 use super::law;
 use super::surface::SignoriniFaces;
@@ -125,7 +124,7 @@ pub unsafe extern "C" fn signorini_surface_table(
         let at_state = arrays.at(4, "state");
         let states = at_state.required(state, joined.arrays.count)?;
         guard::reserve(joined.bytes())?;
-        let states = parsed_states(at_state, states)?;
+        let states = at_state.states(states)?;
         let at_size = arrays.at(6, "size");
         let length = at_size.size(size)?;
         if length == 0 {
