@@ -128,9 +128,7 @@ const NOT_KNOWN: f64 = -1.0;
 
 impl SignoriniReport {
     pub(super) fn of(status: i32, solution: &Solution) -> Self {
-        let (first_method, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
-            method: solution.method.number(),
             outer_iterations: solution.outer_iterations as i64,
             omega: solution.omega,
             damping: solution.damping,
@@ -138,8 +136,6 @@ impl SignoriniReport {
             refactorisations: solution.refactorisations as i64,
             factorisations: solution.factorisations as i64,
             uniqueness: solution.uniqueness.number(),
-            first_method,
-            fallback,
             orientation: i32::from(solution.orientation),
             second: i32::from(solution.second.is_some()),
             error_d: solution.errors.map_or(NOT_KNOWN, |errors| errors.d),
@@ -150,11 +146,16 @@ impl SignoriniReport {
                 Existence::NotProved => SIGNORINI_PROOF_NOT_PROVED,
             },
             remarks: remark_codes(solution.remarks),
-            ..Self::of_certificate(status, &solution.certificate)
+            ..Self::of_method(status, solution.method, solution.fallback)
+                .with_certificate(&solution.certificate)
         }
     }
 
     pub(super) fn of_certificate(status: i32, certificate: &Certificate) -> Self {
+        Self::of_method(status, Method::Auto, None).with_certificate(certificate)
+    }
+
+    fn with_certificate(self, certificate: &Certificate) -> Self {
         SignoriniReport {
             eta: certificate.eta,
             rounding: certificate.rounding,
@@ -165,29 +166,29 @@ impl SignoriniReport {
             pairs_open: certificate.count(State::Open) as i64,
             pairs_slipping: certificate.count(State::Slip) as i64,
             pairs_sticking: certificate.count(State::Stick) as i64,
-            ..Self::empty(status, Method::Auto)
+            ..self
         }
     }
 
     pub(super) fn of_lcp(status: i32, solution: &LcpSolution) -> Self {
-        let (first_method, fallback) = tried(solution.method, solution.fallback);
         SignoriniReport {
             eta: solution.eta,
             rounding: solution.rounding,
             iterations: solution.iterations as i64,
             refactorisations: solution.refactorisations as i64,
             factorisations: solution.factorisations as i64,
-            first_method,
-            fallback,
-            ..Self::empty(status, solution.method)
+            ..Self::of_method(status, solution.method, solution.fallback)
         }
     }
 
-    fn empty(status: i32, method: Method) -> Self {
+    /// The method, with the first one and why it was abandoned, if there was another one before.
+    fn of_method(status: i32, method: Method, tried: Option<(Method, Fallback)>) -> Self {
+        let why = tried.map_or(SIGNORINI_FALLBACK_NONE, |(_, why)| why.number());
         SignoriniReport {
             status,
             method: method.number(),
-            first_method: method.number(),
+            first_method: tried.map_or(method, |(first, _)| first).number(),
+            fallback: why,
             error_d: NOT_KNOWN,
             error_F: NOT_KNOWN,
             ..Self::zeros()
@@ -227,13 +228,6 @@ numbers! {
         Slip = SIGNORINI_STATE_SLIP,
         Stick = SIGNORINI_STATE_STICK,
     }
-}
-
-/// The first method, and why it was abandoned.
-fn tried(method: Method, fallback: Option<(Method, Fallback)>) -> (i32, i32) {
-    let (first, why) =
-        fallback.map_or((method, SIGNORINI_FALLBACK_NONE), |(first, why)| (first, why.number()));
-    (first.number(), why)
 }
 
 /// The states of the pairs as numbers.
