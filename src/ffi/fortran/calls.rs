@@ -12,6 +12,7 @@ use super::super::model_new::signorini_model_new_sparse;
 use super::super::model_solve::signorini_model_solve;
 use super::super::pairs::SignoriniPairs;
 use super::super::report::SignoriniReport;
+use super::super::settings::SignoriniSettings;
 use super::super::solve::{signorini_lcp_solve, signorini_solve};
 use super::super::sparse::{SIGNORINI_TRIANGLE_FULL, SIGNORINI_TRIANGLE_LOWER, SignoriniSparse};
 use super::super::status::last_counted_from_one;
@@ -19,16 +20,19 @@ use super::super::structures::Structure;
 use super::arguments::{Argument, Integer, fill, run, settings, widen, write};
 use super::handles::{create, find, free};
 
-/// Hands over STATE, ETA and ITER of a call with results, and its status.
+/// Solves by a function of C, which is handed settings and report, and hands over STATE, ETA and ITER of its results. Returns
+/// its status.
 ///
 /// # Safety
 /// Each is NULL or of the caller; STATE has a place for each of the pairs.
-unsafe fn tell<I: Integer>(
-    status: i32,
+unsafe fn solved<I: Integer>(
+    settings: &SignoriniSettings,
     (state, pairs): (*mut I, i64),
     (eta, iter): (*mut f64, *mut I),
-    report: &SignoriniReport,
+    solve: impl FnOnce(*const SignoriniSettings, *mut SignoriniReport) -> i32,
 ) -> Outcome<i32> {
+    let mut report = SignoriniReport::default_one();
+    let status = solve(settings, &raw mut report);
     if status >= 0 {
         // SAFETY: by the caller's contract.
         unsafe {
@@ -58,12 +62,11 @@ entry! {
         }
         let law = LAW.law()?;
         let settings = settings(METHOD, TOL, MAXIT)?;
-        let mut report = SignoriniReport::default_one();
-        let status = signorini_solve(
+        let (state, told) = ((STATE.pointer, pairs), (ETA.pointer, ITER.pointer));
+        solved(&settings, state, told, |settings, report| signorini_solve(
             dim, pairs, K.pointer, ldk, F.pointer, GAP.pointer, law, FRIC.pointer, SLIP0.pointer,
-            &raw const settings, D.pointer, R.pointer, STATE.pointer.cast(), &raw mut report, null(),
-        );
-        tell(status, (STATE.pointer, pairs), (ETA.pointer, ITER.pointer), &report)
+            settings, D.pointer, R.pointer, STATE.pointer.cast(), report, null(),
+        ))
     }
 }
 
@@ -75,13 +78,10 @@ entry! {
     ) {
         let (n, ldm) = (N.count()?, LDM.count()?);
         let settings = settings(METHOD, TOL, MAXIT)?;
-        let mut report = SignoriniReport::default_one();
-        let (cover, y) = (null(), null_mut());
-        let status = signorini_lcp_solve(
-            n, M.pointer, ldm, Q.pointer, cover, &raw const settings, W.pointer, Z.pointer, y,
-            &raw mut report,
-        );
-        tell(status, (null_mut(), 0), (ETA.pointer, ITER.pointer), &report)
+        let (cover, y, told) = (null(), null_mut(), (ETA.pointer, ITER.pointer));
+        solved(&settings, (null_mut(), 0), told, |settings, report| signorini_lcp_solve(
+            n, M.pointer, ldm, Q.pointer, cover, settings, W.pointer, Z.pointer, y, report,
+        ))
     }
 }
 
@@ -117,14 +117,11 @@ entry! {
         let model = find::<SignoriniModel>(HANDLE)?;
         let law = LAW.law()?;
         let settings = settings(METHOD, TOL, MAXIT)?;
-        let mut report = SignoriniReport::default_one();
-        let status = signorini_model_solve(
+        let state = (STATE.pointer, model.model.pairs() as i64);
+        solved(&settings, state, (ETA.pointer, ITER.pointer), |settings, report| signorini_model_solve(
             Arc::as_ptr(&model), 1, F.pointer, PRESC.pointer, GAP.pointer, law, FRIC.pointer, SLIP0.pointer,
-            &raw const settings, D.pointer, R.pointer, STATE.pointer.cast(), null_mut(),
-            &raw mut report, null(),
-        );
-        let pairs = model.model.pairs() as i64;
-        tell(status, (STATE.pointer, pairs), (ETA.pointer, ITER.pointer), &report)
+            settings, D.pointer, R.pointer, STATE.pointer.cast(), null_mut(), report, null(),
+        ))
     }
 }
 
