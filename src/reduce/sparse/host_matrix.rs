@@ -7,6 +7,7 @@ use crate::linalg::sparse_matrix::{
     Columns, Csc, OutOfMemory, both, column, diagonal, entries, transposed, value_at,
 };
 use crate::linalg::tolerances::AGREES;
+use crate::problem::symmetric_matrix::not_symmetric;
 use crate::reduce::probes::refuse;
 
 impl SparseMatrix<'_> {
@@ -119,7 +120,14 @@ fn check_symmetry(name: &str, full: &Csc, transposed: &Csc) -> Result<(), Error>
         for (i, below, above) in both(full, transposed, j, j + 1) {
             let scale = root[i] * root[j];
             if (below - above).abs() > AGREES * scale {
-                return refuse(messages::not_symmetric(name, (i, j), (below, above), scale));
+                let remedy =
+                    "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
+                let stored = match [below, above].contains(&0.0) {
+                    true => "; if one triangle is stored, triangle must name it",
+                    false => "",
+                };
+                let differ = not_symmetric(name, (i, j), (below, above), scale, remedy);
+                return refuse(differ + stored);
             }
         }
     }

@@ -4,7 +4,7 @@
 use super::host_arrays::{Indices, SparseMatrix};
 use crate::error::{entry, index, number};
 use crate::linalg::sparse_schur::Failure;
-use crate::problem::{NEARLY_DEPENDENT, symmetric_matrix};
+use crate::problem::NEARLY_DEPENDENT;
 use crate::reduce::motion;
 
 /// Beyond this an integer is none that counts the entries of a matrix in memory, but two integers of 4
@@ -97,21 +97,6 @@ pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) ->
          column",
         index(last)
     )
-}
-
-/// Two entries that mirror each other differ; `scale` is what the diagonal allows them to be.
-pub(super) fn not_symmetric(
-    name: &str,
-    place: (usize, usize),
-    (below, above): (f64, f64),
-    scale: f64,
-) -> String {
-    let remedy = "hand over one triangle (SIGNORINI_TRIANGLE_LOWER), or average the two";
-    let stored = match [below, above].contains(&0.0) {
-        true => "; if one triangle is stored, triangle must name it",
-        false => "",
-    };
-    symmetric_matrix::not_symmetric(name, place, (below, above), scale, remedy) + stored
 }
 
 /// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
