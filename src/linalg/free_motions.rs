@@ -153,10 +153,7 @@ fn settle_scaled(
     basis.extend(free);
     replace_products(matrix, &basis, products);
     for &i in &alone {
-        (0..size).for_each(|j| {
-            matrix[i + size * j] = 0.0;
-            matrix[j + size * i] = 0.0;
-        });
+        (0..size).for_each(|j| (matrix[i + size * j], matrix[j + size * i]) = (0.0, 0.0));
     }
     Ok(some_free)
 }

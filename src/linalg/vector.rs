@@ -51,16 +51,8 @@ pub fn norm_inf(values: &[f64]) -> f64 {
 
 /// Largest absolute value of `values`, 0 if there are none; NaN if one is.
 pub fn largest_of(values: impl IntoIterator<Item = f64>) -> f64 {
-    let larger = |most: f64, value: f64| {
-        if value.is_nan() {
-            value
-        } else if value.abs() > most {
-            value.abs()
-        } else {
-            most
-        }
-    };
-    values.into_iter().fold(0.0, larger)
+    let larger = |most: f64, size: f64| if size.is_nan() || size > most { size } else { most };
+    values.into_iter().map(f64::abs).fold(0.0, larger)
 }
 
 /// Absolute values.

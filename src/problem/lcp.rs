@@ -78,11 +78,7 @@ impl<'a> Lcp<'a> {
                 }
             },
         );
-        for magnitude in &mut magnitude {
-            if *magnitude == 0.0 {
-                *magnitude = 1.0;
-            }
-        }
+        magnitude.iter_mut().filter(|most| **most == 0.0).for_each(|most| *most = 1.0);
         magnitude
     }
 }

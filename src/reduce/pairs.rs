@@ -123,14 +123,10 @@ impl ContactPairs<'_> {
     /// Marks what rows by degree of freedom name, as the unknowns of a rigid body: with those marked before it may have no
     /// stiffness of its own. Of a node's row that stiffness is missing.
     pub(super) fn without_own_stiffness(&self, mut marked: Vec<bool>) -> Vec<bool> {
-        if self.vectors.is_some() {
-            for &dof in self.masters {
-                // Dependents may have numbers beyond the matrix.
-                if let Some(marked) = marked.get_mut(dof) {
-                    *marked = true;
-                }
-            }
-        }
+        let named = if self.vectors.is_some() { self.masters } else { &[] };
+        // Dependents may have numbers beyond the matrix.
+        let size = marked.len();
+        named.iter().filter(|dof| **dof < size).for_each(|dof| marked[*dof] = true);
         marked
     }
 
@@ -289,9 +285,7 @@ impl Rows {
 fn stand_once(dofs: &[usize], equations: &[Terms]) -> bool {
     let mut uses: HashMap<usize, usize> = dofs.iter().map(|dof| (*dof, 0)).collect();
     for (dof, _) in equations.iter().flatten() {
-        if let Some(uses) = uses.get_mut(dof) {
-            *uses += 1;
-        }
+        uses.entry(*dof).and_modify(|uses| *uses += 1);
     }
     uses.values().all(|uses| *uses == 1)
 }
