@@ -92,7 +92,11 @@ impl Model {
         let matrix = Matrix::new(size, self.reduction.stiffness(), size.max(1));
         // Rigid bodies have none; springs in series with pairs that depend on each other do without.
         if dependence.is_none() || matrix.largest_diagonal() > 0.0 {
-            symmetric_matrix::check(&matrix, 1, ("K_rel", Argument::Matrix))?;
+            let named = ("K_rel", Argument::Matrix);
+            match self.reduction.units_of_condensation() {
+                Some(units) => symmetric_matrix::check_condensed(&matrix, units, named)?,
+                None => symmetric_matrix::check(&matrix, 1, named)?,
+            }
         }
         Ok(self)
     }

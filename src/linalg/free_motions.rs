@@ -148,7 +148,7 @@ fn settle_scaled(
         }
     }
     let some_free = !free.is_empty();
-    let alone = separate(&mut free, size);
+    let Some(alone) = separate(&mut free, root, whole, goes_on) else { return Ok(false) };
     products.extend(free.iter().map(|_| vec![0.0; size]));
     basis.extend(free);
     replace_products(matrix, &basis, products);
@@ -232,26 +232,55 @@ fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Parts the components that the free motions move on their own: returns them, and leaves of the motions
-/// those of the other components. Free motions move a component on its own if they span its unit vector up to
-/// [`NEGLIGIBLE`]: far above the rounding of the motions (1e-15 to 1e-13, measured), and its square, an energy, is below
-/// rounding. The square of its share, which costs less, tells first.
-fn separate(free: &mut Vec<Vec<f64>>, size: usize) -> Vec<usize> {
+/// Parts the components that the free motions move on their own: returns them, and leaves of the motions those of the other
+/// components; `None` where `goes_on` says no.
+///
+/// Free motions move a component on its own if they span its unit vector up to [`NEGLIGIBLE`]: far above the rounding of most
+/// motions (1e-15 to 1e-13, measured), and its square, an energy, is below rounding. Rounding mixes them with motions of little
+/// energy by more, as balls with a ring on soft springs: by that of an energy over this energy. Then the motion of the component
+/// itself tells. The square of the share, which costs less, tells first.
+fn separate(
+    free: &mut Vec<Vec<f64>>,
+    root: &[f64],
+    whole: &dyn Whole,
+    goes_on: GoesOn<'_>,
+) -> Option<Vec<usize>> {
+    let size = root.len();
     let share = |i: usize| free.iter().map(|v| v[i] * v[i]).sum::<f64>();
     let remainder = |i: usize| {
         let mut rest = combination(size, free.iter().map(|v| (-v[i], v)));
         rest[i] += 1.0;
         norm(&rest)
     };
-    let alone: Vec<usize> =
-        (0..size).filter(|&i| share(i) > 1.0 - NEGLIGIBLE && remainder(i) <= NEGLIGIBLE).collect();
+    let mut alone = Vec::new();
+    for i in (0..size).filter(|&i| share(i) > 1.0 - NEGLIGIBLE) {
+        if remainder(i) <= NEGLIGIBLE || is_unresisted(i, root, whole, goes_on)? {
+            alone.push(i);
+        }
+    }
     if !alone.is_empty() {
         let left = free.len().saturating_sub(alone.len());
         let mut rest = std::mem::take(free);
         rest.iter_mut().for_each(|v| alone.iter().for_each(|&i| v[i] = 0.0));
         *free = orthonormal(rest, left);
     }
-    alone
+    Some(alone)
+}
+
+/// `true` if the motion of a component on its own meets forces that are the rounding of its energy: these bound the energy, and
+/// what a row of zeros takes from any other one. `None` where `goes_on` says no.
+fn is_unresisted(
+    component: usize,
+    root: &[f64],
+    whole: &dyn Whole,
+    goes_on: GoesOn<'_>,
+) -> Option<bool> {
+    let mut scaled = vec![0.0; root.len()];
+    scaled[component] = 1.0;
+    let motion = whole.extended(&divided(&scaled, root), goes_on)?;
+    let forces = whole.forces(&motion);
+    let kept = divided(&forces[forces.len() - root.len()..], root);
+    Some(norm(&kept) <= FREE * whole.noise(&motion))
 }
 
 /// Gives the scaled matrix the `products` with the orthonormal `basis`, and leaves it symmetric.

@@ -36,6 +36,23 @@ pub(crate) fn check(matrix: &Matrix<'_>, group: usize, named: Named<'_>) -> Resu
     check_not_zero(matrix, named)
 }
 
+/// As [`check`], of a matrix that the library condensed from terms of the sizes `units`: beside a positive diagonal entry, which
+/// may be that of a soft spring, others have their rounding, that of an energy which is told from none.
+pub(crate) fn check_condensed(
+    matrix: &Matrix<'_>,
+    units: &[f64],
+    named: Named<'_>,
+) -> Result<(), Error> {
+    let root = |(i, unit): (usize, &f64)| {
+        let own = matrix.at(i, i);
+        let rounding = if own > 0.0 { FREE * f64::EPSILON * unit } else { 0.0 };
+        (own + rounding).sqrt()
+    };
+    let root: Vec<f64> = units.iter().enumerate().map(root).collect();
+    check_beside(matrix, &root, named)?;
+    check_not_zero(matrix, named)
+}
+
 /// As [`check`], beside these roots of the diagonal; a matrix of zeros passes.
 pub(super) fn check_beside(
     matrix: &Matrix<'_>,

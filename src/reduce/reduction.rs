@@ -67,6 +67,12 @@ pub trait Reduction: Send + Sync {
         false
     }
 
+    /// The size of the terms of which each diagonal entry of [`Self::stiffness`] is left, if the library condensed it: its rounding
+    /// is known beside them.
+    fn units_of_condensation(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// Entries of a load or displacement vector of the host.
     fn host_size(&self) -> usize;
 

@@ -12,6 +12,7 @@ mod rows;
 mod constrained;
 mod equations;
 mod frames;
+mod free_balls;
 mod general_rows;
 mod motion_words;
 mod reductions;

@@ -23,6 +23,8 @@ pub struct SparseSchur {
     values: Vec<f64>,
     /// `S`, column-major.
     pub schur: Vec<f64>,
+    /// The diagonal before the elimination, beside which `S` is rounded: positive.
+    pub units: Vec<f64>,
     /// The last right side that was condensed by itself, and the result of its elimination: its recovery needs both
     /// again.
     last: LastCase,
@@ -41,21 +43,22 @@ impl SparseSchur {
             diagnosed((&plan.structure, &plan.schedule), &mut lower, progress)?;
         let structure = plan.structure;
         let (eliminated, m) = (structure.eliminated, structure.kept());
-        let mut found = SparseSchur { structure, values, schur, last: LastCase::default() };
         let mut units: Vec<f64> = diagonals(&lower).skip(eliminated).collect();
         // A component of a rigid body has no stiffness of its own: the stiffest other one is its unit.
         let largest = largest_of(units.iter().copied());
         let of_rigid = if largest > 0.0 { largest } else { 1.0 };
         units.iter_mut().filter(|unit| **unit == 0.0).for_each(|unit| *unit = of_rigid);
         let least = suspicious_pivot(weakest.map_or(1.0, |(_, pivot)| pivot));
+        let last = LastCase::default();
+        let mut found = SparseSchur { structure, values, schur, units, last };
         let doubt = match always || m <= FEW {
             true => Some(Doubt::Pivots),
-            false => Doubt::of(least, &units, |i| found.schur[i + m * i]),
+            false => Doubt::of(least, &found.units, |i| found.schur[i + m * i]),
         };
         if let Some(doubt) = doubt {
-            let (mut schur, units) = (std::mem::take(&mut found.schur), (&units[..], least, doubt));
-            let whole = Unreduced { lower, factor: &found };
-            settle(&mut schur, units, &whole, &mut || progress(1.0).is_ok())?;
+            let mut schur = std::mem::take(&mut found.schur);
+            let (units, whole) = (&found.units[..], Unreduced { lower, factor: &found });
+            settle(&mut schur, (units, least, doubt), &whole, &mut || progress(1.0).is_ok())?;
             found.schur = schur;
             progress(1.0)?;
         }

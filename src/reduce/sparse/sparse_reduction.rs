@@ -124,6 +124,13 @@ impl Reduction for SparseReduction {
         }
     }
 
+    fn units_of_condensation(&self) -> Option<&[f64]> {
+        match &self.engine {
+            Engine::Condensed(schur) => Some(&schur.units),
+            Engine::FullSpace(_) => None,
+        }
+    }
+
     fn inner_unknowns(&self) -> Option<usize> {
         self.engine.full_space().map(|_| self.variables.free.len())
     }
