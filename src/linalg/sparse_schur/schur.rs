@@ -9,7 +9,8 @@ use super::structure::Structure;
 use crate::linalg::free_motions::{Doubt, Whole, settle, suspicious_pivot};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::sparse_matrix::{Csc, diagonals, symmetric_magnitude, symmetric_times};
-use crate::linalg::vector::{dot, largest_of, sizes};
+use crate::linalg::tolerances::FREE;
+use crate::linalg::vector::{dot, largest_of, norm_inf, sizes};
 use crate::linalg::watched::GoesOn;
 
 /// So many rows of `C` are few beside the rigid motions of a body, which are up to six: pivots tell which of
@@ -80,11 +81,28 @@ impl SparseSchur {
     }
 
     /// The right sides `(a, c)`, one behind the other, after elimination of the first rows: of each one
-    /// `c - B A⁻¹ a`; `None` where `goes_on` says no.
+    /// `c - B A⁻¹ a`; `None` where `goes_on` says no. On a component that nothing resists, nothing could balance a load that is
+    /// but the rounding of what the eliminated rows leave: it is zero.
     pub fn condense(&self, rhs: &[f64], goes_on: GoesOn<'_>) -> Option<Vec<f64>> {
         let (size, eliminated) = (self.structure.size.max(1), self.structure.eliminated);
         let x = self.forward(rhs, goes_on)?;
-        let condensed = x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
+        let mut condensed: Vec<f64> =
+            x.chunks_exact(size).flat_map(|x| &x[eliminated..]).copied().collect();
+        let m = self.structure.kept();
+        let free: Vec<usize> = (0..m).filter(|i| self.schur[i + m * i] == 0.0).collect();
+        if !free.is_empty() {
+            let mut moved = x.clone();
+            moved.chunks_exact_mut(size).for_each(|x| x[eliminated..].fill(0.0));
+            solve::backward(&self.structure, &self.values, &mut moved, goes_on)?;
+            for (load, moved) in condensed.chunks_exact_mut(m).zip(moved.chunks_exact(size)) {
+                let largest = norm_inf(&moved[..eliminated]);
+                for &i in &free {
+                    if load[i].abs() <= FREE * f64::EPSILON * self.units[i] * largest {
+                        load[i] = 0.0;
+                    }
+                }
+            }
+        }
         if x.len() == size {
             self.last.keep(rhs, &x);
         }
