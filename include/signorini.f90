@@ -118,6 +118,7 @@ module signorini
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_FREE_MOTION = 4
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_HELD_BY_ROUNDING = 8
     integer(c_int32_t), parameter :: SIGNORINI_REMARK_NEEDS_LOW_PART = 16
+    integer(c_int32_t), parameter :: SIGNORINI_REMARK_GAPS_PASSED = 32
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_LOWER = 0
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_UPPER = 1
     integer(c_int32_t), parameter :: SIGNORINI_TRIANGLE_FULL = 2

@@ -44,17 +44,19 @@ pub const SIGNORINI_FALLBACK_UNSTABLE: i32 = 3;
 /// It found no accurate solution.
 pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 
-/// Every finite gap is negative: interference everywhere, or the wrong sign.
+/// Every finite gap is negative: interference everywhere, or wrong sign.
 pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
 /// A coefficient of friction is above 10: in percent, or another array?
 pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
-/// Without friction: the bodies may move without any force; a support may be missing. Not looked
-/// for in full space, nor where pairs depend on each other.
+/// Without friction: bodies may move without force; a support may be missing. Not sought in full
+/// space, nor where pairs depend on each other.
 pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
 /// Only rounding of K holds a body.
 pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
 /// d rounded to doubles misses the tolerance, d + extra.d_low meets it.
 pub const SIGNORINI_REMARK_NEEDS_LOW_PART: i32 = 16;
+/// Penetration, large beside gaps.
+pub const SIGNORINI_REMARK_GAPS_PASSED: i32 = 32;
 
 /// How good a result is, and how it was found. Set struct_size; a call writes all other fields.
 /// K d - f is the contact force that d requires.
@@ -203,6 +205,7 @@ fn remark_codes(remarks: Remarks) -> i32 {
         + code(remarks.free_motion, SIGNORINI_REMARK_FREE_MOTION)
         + code(remarks.held_by_rounding, SIGNORINI_REMARK_HELD_BY_ROUNDING)
         + code(remarks.needs_low_part, SIGNORINI_REMARK_NEEDS_LOW_PART)
+        + code(remarks.gaps_passed, SIGNORINI_REMARK_GAPS_PASSED)
 }
 
 numbers! {
@@ -253,6 +256,7 @@ pub extern "C" fn signorini_remark_string(remark: i32) -> *const c_char {
         SIGNORINI_REMARK_FREE_MOTION => c"the bodies may move without any force",
         SIGNORINI_REMARK_HELD_BY_ROUNDING => c"only rounding of K holds a body",
         SIGNORINI_REMARK_NEEDS_LOW_PART => c"d rounded to doubles misses the tolerance",
+        SIGNORINI_REMARK_GAPS_PASSED => c"the penetration is large beside the gaps",
         _ => c"unknown remark",
     };
     text.as_ptr()

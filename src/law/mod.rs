@@ -76,6 +76,8 @@ pub use piece::{Boundary, Piece, Tangential};
 pub use planar_piece::{PieceExit, Planar};
 pub use reach::gaps_within_reach;
 pub use recession::{Recession, lift};
-pub use remarks::{deepest_of_negative_gaps, friction_is_large, touching};
+pub use remarks::{
+    deepest_of_negative_gaps, friction_is_large, passes_gaps, size_of_gaps, touching,
+};
 pub use slopes::{Linearised, Slopes};
 pub use state::State;

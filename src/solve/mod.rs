@@ -226,7 +226,7 @@ fn finished<R: Relation>(
     if settings.proof {
         solution.existence = Existence::NotProved;
     }
-    plan::remark_on_data(problem, &mut solution);
+    plan::remark_on_data(problem, settings, &mut solution);
     solution.iterations = monitor.iterations();
     solution
 }

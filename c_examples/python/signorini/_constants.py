@@ -98,6 +98,8 @@ class Remark(IntFlag):
     may be missing.
     HELD_BY_ROUNDING: only rounding of K holds a body, d is a million times what the loads ask for.
     NEEDS_LOW_PART: d rounded to doubles misses the tolerance, d + d_low meets it.
+    GAPS_PASSED: the penetration is not small beside gaps and normal displacements, as bodies are soft
+    beside the loads; forces may be wrong: ask for a smaller tolerance.
     """
 
     GAPS_NEGATIVE = 1
@@ -105,6 +107,7 @@ class Remark(IntFlag):
     FREE_MOTION = 4
     HELD_BY_ROUNDING = 8
     NEEDS_LOW_PART = 16
+    GAPS_PASSED = 32
 
 
 class Proof(IntEnum):

@@ -342,6 +342,6 @@ fn result(
     }
     let told = ending.status(settings, &certificate);
     let mut solution = Solution::of(Method::Newton, told, d, certificate);
-    remark_on_data(contact.problem(), &mut solution);
+    remark_on_data(contact.problem(), settings, &mut solution);
     solution
 }

@@ -2,11 +2,12 @@
 //! beside the result, never refused.
 
 use crate::certificate::measure;
-use crate::law::{Contact, deepest_of_negative_gaps, friction_is_large};
+use crate::law::{Contact, deepest_of_negative_gaps, friction_is_large, passes_gaps, size_of_gaps};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Relation};
+use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Call, Remarks, Solution, Status, Uniqueness};
 use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freely};
 
@@ -14,9 +15,14 @@ use crate::solve::rigid::{RigidMotions, escape, is_held_by_rounding, moves_freel
 const ROUNDING: &str = "if K is condensed, nothing but its rounding resists a motion that the loads drive: solve it as a \
                         model, which takes that rounding for none";
 
-/// Adds the remarks on the data of a problem, in the sentence of its solution too.
-pub fn remark_on_data<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut Solution) {
-    solution.remarks = of_data(problem, &solution.d);
+/// Adds the remarks on the data of a problem and what its solution passes, in the sentence of the solution too.
+pub fn remark_on_data<R: Relation>(
+    problem: &ContactProblem<'_, R>,
+    settings: &Settings,
+    solution: &mut Solution,
+) {
+    let gaps_passed = gaps_passed(problem, settings, solution);
+    solution.remarks = Remarks { gaps_passed, ..of_data(problem, &solution.d) };
     say_remarks(problem, solution);
 }
 
@@ -29,6 +35,16 @@ fn of_data<R: Relation>(problem: &ContactProblem<'_, R>, d: &[f64]) -> Remarks {
         friction_large: friction_is_large(problem.law()),
         ..Remarks::default()
     }
+}
+
+/// True if a solution has a penetration that is not small beside the gaps.
+fn gaps_passed<R: Relation>(
+    problem: &ContactProblem<'_, R>,
+    settings: &Settings,
+    solution: &Solution,
+) -> bool {
+    let at = (&solution.d[..], solution.certificate.penetration);
+    solution.status == Status::Solved && passes_gaps(problem, at, settings.tolerance)
 }
 
 /// Says the remarks on a solution in its sentence.
@@ -47,10 +63,21 @@ pub fn say_remarks<R: Relation>(problem: &ContactProblem<'_, R>, solution: &mut 
             remarks.needs_low_part,
             "d rounded to doubles misses the tolerance, d + d_low meets it".into(),
         ),
+        (remarks.gaps_passed, passed(problem, solution)),
     ];
     for (_, sentence) in sentences.iter().filter(|(said, _)| *said) {
         solution.say(&format!("remark: {sentence}"));
     }
+}
+
+/// The sentence on a penetration that is not small beside the gaps.
+fn passed<R: Relation>(problem: &ContactProblem<'_, R>, solution: &Solution) -> String {
+    let penetration = solution.certificate.penetration;
+    let share = penetration / size_of_gaps(problem, &solution.d);
+    format!(
+        "the penetration {penetration:.1e} is {share:.1e} of the largest gap or normal displacement, and forces may be wrong, as \
+         bodies are soft beside the loads: ask for a smaller tolerance, or make them stiffer"
+    )
 }
 
 /// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
@@ -65,6 +92,7 @@ pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monit
         free_motion: asked && moves_freely(contact, at, definite, monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         needs_low_part: solved && needs_low_part(call, solution),
+        gaps_passed: gaps_passed(problem, call.settings, solution),
         ..of_data(problem, d)
     };
     if solution.status == Status::Stalled && problem.is_symmetric() {

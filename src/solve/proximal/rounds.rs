@@ -22,7 +22,7 @@
 use super::growth::{ENOUGH, Growth, proof_in, sentence};
 use super::step::{measured, step};
 use crate::error::Error;
-use crate::law::{Contact, without_friction};
+use crate::law::{Contact, passes_gaps, without_friction};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
@@ -148,6 +148,7 @@ pub fn rounds<R: Redundant>(
         growth: Growth::default(),
         best: None,
         least: f64::INFINITY,
+        deep: false,
         lowered: false,
         idle: 0,
         solved: 0,
@@ -176,6 +177,8 @@ struct Rounds<'p, 's, R: Redundant> {
     /// `eta` of the round before, and the least of those that halved the one before.
     last: f64,
     least: f64,
+    /// True if the best result is a solution whose penetration is not small beside the gaps.
+    deep: bool,
     /// True if the springs of this round are less compliant than those before.
     lowered: bool,
     /// Rounds since `least` was halved.
@@ -212,17 +215,20 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         self.changes = [self.changes[1], norm_inf(&change)];
         self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
         self.force = force;
+        let deep = self.is_deep(&found);
         let halves = 2.0 * eta < self.least;
         (self.least, self.idle) = if halves { (eta, 0) } else { (self.least, self.idle + 1) };
         let is_slow = match found.status {
-            Status::Solved => self.changes[1] > SLOW * self.changes[0] && !self.growth.is_steady(),
+            Status::Solved if !deep => {
+                self.changes[1] > SLOW * self.changes[0] && !self.growth.is_steady()
+            }
             _ => eta > SLOW * self.last,
         };
         // Of a solution less compliant springs make the change less, until it is rounding of the gaps.
         let is_rounding =
             self.lowered && found.status == Status::Solved && self.changes[1] >= self.changes[0];
         let allowed = self.settings.tolerance * norm_inf(&self.force);
-        let settled = is_rounding || settles(self.changes, allowed);
+        let settled = !deep && (is_rounding || settles(self.changes, allowed));
         let before = self.springs.compliance();
         if !failed && is_slow && !settled {
             self.springs.change(false, monitor);
@@ -234,10 +240,19 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     }
 
     /// The tolerance of the next round. The springs leave the first rounds fewer digits than the problem asks for, and later
-    /// ones mend it.
+    /// ones mend it. Gaps may ask for more than `eta` does.
     fn tolerance(&self) -> f64 {
         let rough = ROUGH * self.last.min(self.springs.compliance());
-        rough.max(AIM * self.settings.tolerance).max(SMALLEST_TOLERANCE)
+        let enough = if self.deep { 0.0 } else { AIM * self.settings.tolerance };
+        rough.max(enough).max(SMALLEST_TOLERANCE)
+    }
+
+    /// True if a result is a solution by `eta` whose penetration is not small beside the gaps: springs soft beside the loads.
+    /// Rounds go on then as if it were none, and it is kept until there is a better one.
+    fn is_deep(&self, found: &Solution) -> bool {
+        let at = (&found.d[..], found.certificate.penetration);
+        found.status == Status::Solved
+            && passes_gaps(self.contact.problem(), at, self.settings.tolerance)
     }
 
     /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
@@ -260,19 +275,21 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     /// forces are `settled`: what grows for little gain would hide other forces. Returns `true` if there will be no better one.
     fn keep(&mut self, found: Solution, halves: bool, settled: bool) -> bool {
         let stops = !matches!(found.status, Status::Solved | Status::Stalled);
+        let (deep, was_deep) = (self.is_deep(&found), self.deep);
         let is_solved = |result: &Solution| result.status == Status::Solved;
         let was_solved = self.best.as_ref().is_some_and(is_solved);
         let is_better = match &self.best {
             Some(best) if is_solved(&found) == was_solved => {
-                let of_solutions = !settled || found.certificate.eta < best.certificate.eta;
+                let is_less = found.certificate.eta < best.certificate.eta;
+                let of_solutions = is_less || !deep && (was_deep || !settled);
                 stops || if was_solved { of_solutions } else { halves }
             }
             best => best.is_none() || !was_solved,
         };
         if is_better {
-            self.best = Some(found);
+            (self.best, self.deep) = (Some(found), deep);
         }
-        self.solved += usize::from(was_solved);
+        self.solved += usize::from(was_solved && !was_deep);
         stops || was_solved && (settled || self.solved >= ENOUGH)
     }
 }

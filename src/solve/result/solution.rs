@@ -82,7 +82,8 @@ pub struct Errors {
     pub force: f64,
 }
 
-/// Data that are legal and often a mistake of the host. The result is right all the same.
+/// Data that are legal and often a mistake of the host, and what a host should know of a result, which obeys the law as
+/// closely as the tolerance asks all the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Remarks {
     /// Every finite gap is negative: interference everywhere, or the sign of gaps is turned round.
@@ -98,6 +99,9 @@ pub struct Remarks {
     /// [`Solution::d`] alone misses the tolerance, as its rounding to doubles changes the forces by more; with
     /// [`Solution::d_low`] it meets it.
     pub needs_low_part: bool,
+    /// The penetration is more than the square root of the tolerance beside the largest gap or normal displacement, as
+    /// bodies are soft beside the loads: `eta` measures it as a force, and forces may be wrong.
+    pub gaps_passed: bool,
 }
 
 /// Result of a contact problem.
