@@ -95,8 +95,12 @@ impl Unresisted {
 
     /// `true` if a `value` of the product belongs to one of the columns, and is rounding.
     fn is_rounding(&self, (i, j): (usize, usize), value: f64) -> bool {
-        let size = |row, column: usize| Some(value_at(&self.sizes, row, self.places[column]?));
-        size(i, j).or_else(|| size(j, i)).is_some_and(|size| value.abs() <= ROUNDING * size)
+        // A column that is none of them has no rounding.
+        let size = |row, column: usize| match self.places[column] {
+            Some(place) => value_at(&self.sizes, row, place),
+            None => f64::NEG_INFINITY,
+        };
+        value.abs() <= ROUNDING * size(i, j).max(size(j, i))
     }
 }
 
