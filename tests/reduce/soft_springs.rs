@@ -1,8 +1,8 @@
 //! Bodies on springs so soft that loads move them by many times the gaps.
 
 use crate::common::dense::{difference, largest};
-use crate::constrained::{Constrained, solved};
-use signorini::{FrictionLaw, LoadCase, Monitor, Settings, State, Status};
+use crate::constrained::Constrained;
+use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, State, Status};
 use std::f64::consts::TAU;
 
 /// Of the pin; of its hole; of both.
@@ -29,6 +29,14 @@ fn link(k: f64) -> Constrained {
     }
 }
 
+/// The link under the load (1, -0.1) at its middle.
+fn drawn(model: &Model, settings: &Settings) -> Solution {
+    let (load, gap) = (&[1.0, -0.1, 0.0], &[CLEARANCE; 5]);
+    let law = FrictionLaw::Coulomb(&[FRICTION; 5]);
+    let case = LoadCase { load, prescribed: None, gap, law, reference_slip: None };
+    model.solve(&case, settings, None, &mut Monitor::new(settings, None)).unwrap()
+}
+
 /// The load (1, -0.1) at the middle draws the pin into the corner of the first two planes, at angles 0 and a, and the link turns
 /// until its springs hold it: both pairs slip, `F_t = mu p`. With `p` and `q` on them, the forces along x and y, and the moment about
 /// the pin, whose turn `theta` is twice `u_y` less the corner's height `h`:
@@ -47,7 +55,8 @@ fn a_link_on_soft_springs_turns_and_does_not_jam() {
     for k in [1e-4, 1e-6, 1e-7, 1e-8] {
         let model = link(k).whole(&Settings::default());
         assert_eq!(model.dependent_pairs().len(), 4);
-        let solution = solved(&model, &[1.0, -0.1, 0.0], &[CLEARANCE; 5], FRICTION);
+        let solution = drawn(&model, &Settings::default());
+        assert_eq!(solution.status, Status::Solved, "{k:e}: {}", solution.message);
         // 0.2 k (u_y - h) = 0.1 mu (p + q) - (k u_y + 0.1) / 2, with the other two put in.
         let (across, down) = (cos + FRICTION * sin, sin - FRICTION * cos);
         let along = 1.0 - k * CLEARANCE;
@@ -74,20 +83,9 @@ fn a_link_on_soft_springs_turns_and_does_not_jam() {
 #[test]
 fn what_passes_the_gaps_is_told() {
     let model = link(1e-8).whole(&Settings::default());
-    let gap = [CLEARANCE; 5];
-    let law = FrictionLaw::Coulomb(&[FRICTION; 5]);
-    let case = LoadCase {
-        load: &[1.0, -0.1, 0.0],
-        prescribed: None,
-        gap: &gap,
-        law,
-        reference_slip: None,
-    };
     let mut counts = [0; 2];
     for max_iterations in 1..=40 {
-        let settings = Settings { max_iterations, ..Settings::default() };
-        let monitor = &mut Monitor::new(&settings, None);
-        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        let solution = drawn(&model, &Settings { max_iterations, ..Settings::default() });
         if solution.status != Status::Solved {
             continue;
         }
