@@ -62,10 +62,10 @@ const WITHOUT_FRICTION: [&MethodRow; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PA
 
 /// With friction in the plane: the fastest method first. The path has the guarantee, by theorem K where contact alone
 /// holds a body too. It starts where sweeps end and takes far fewer events than Lemke's method takes pivots on most
-/// problems: behind a solution of negative orientation it takes up to eight times the path's time. It may end where rounding spoils all
-/// the path's starts, or where a body without supports leaves it on a ray that proves nothing. Springs come after both: where the problem with `K` is hard for Newton's method, so
-/// are those with springs; a body on rollers with 513 pairs takes 330 systems of springs where the path takes 30, and a belt
-/// around a pulley twenty times Lemke's time.
+/// problems: behind a solution of negative orientation that takes up to eight times as long. Lemke's method may end where
+/// rounding spoils all starts of the path, or where a body without supports leaves it on a ray that proves nothing.
+/// Springs come after both: where the problem with `K` is hard for Newton's method, so are those with springs; a body on
+/// rollers with 513 pairs takes 330 systems of springs where the path takes 30.
 const IN_PLANE: [&MethodRow; 9] = [
     &NEWTON,
     &BALANCE,
