@@ -7,7 +7,7 @@ use crate::common::problems::{uniform, vector};
 use crate::rows::{Host, solved, springs};
 use fastrand::Rng;
 use signorini::{
-    FrictionLaw, LoadCase, Monitor, Search, Settings, Solution, State, Status, Uniqueness,
+    Error, FrictionLaw, LoadCase, Monitor, Search, Settings, Solution, State, Status, Uniqueness,
 };
 
 /// A node on springs of stiffness 2 along each axis, against rigid planes with these outward normals.
@@ -41,17 +41,21 @@ fn checked(host: &Host, load: &[f64], gap: &[f64], mu: f64) -> Solution {
 /// Floor below (normal -y), wall at the right (normal +x), no gaps.
 const CORNER: [[f64; 2]; 2] = [[0.0, -1.0], [1.0, 0.0]];
 
-/// A call that has no time to condense ends where it starts, certified: without displacements nothing carries the
-/// load.
-#[test]
-fn a_call_without_time_ends_where_it_starts() {
+/// A call for a node that (1, -1) presses into the corner, with mu .3.
+fn pressed_into_the_corner(settings: &Settings) -> Result<Solution, Error> {
     let model = node_on_planes(&CORNER).model().unwrap();
     let law = FrictionLaw::Coulomb(&[0.3; 2]);
     let load = &[1.0, -1.0];
     let case = LoadCase { load, prescribed: None, gap: &[0.0; 2], law, reference_slip: None };
+    model.solve(&case, settings, None, &mut Monitor::new(settings, None))
+}
+
+/// A call that has no time to condense ends where it starts, certified: without displacements nothing carries the
+/// load.
+#[test]
+fn a_call_without_time_ends_where_it_starts() {
     let settings = Settings { time_limit: f64::MIN_POSITIVE, ..Settings::default() };
-    let mut monitor = Monitor::new(&settings, None);
-    let solution = model.solve(&case, &settings, None, &mut monitor).unwrap();
+    let solution = pressed_into_the_corner(&settings).unwrap();
     assert_eq!(solution.status, Status::TimeLimit, "{}", solution.message);
     assert_eq!(solution.d, [0.0; 4]);
     assert!(solution.certificate.eta > 0.1, "{:e}", solution.certificate.eta);
@@ -107,13 +111,8 @@ fn rows_that_nearly_follow_from_others_are_solved() {
 /// A question that these models cannot answer is refused, as in full space.
 #[test]
 fn a_search_for_other_solutions_is_refused() {
-    let model = node_on_planes(&CORNER).model().unwrap();
-    let law = FrictionLaw::Coulomb(&[0.3; 2]);
-    let load = &[1.0, -1.0];
-    let case = LoadCase { load, prescribed: None, gap: &[0.0; 2], law, reference_slip: None };
     let settings = Settings { search: Search::Others, ..Settings::default() };
-    let mut monitor = Monitor::new(&settings, None);
-    let error = model.solve(&case, &settings, None, &mut monitor).unwrap_err();
+    let error = pressed_into_the_corner(&settings).unwrap_err();
     assert!(error.to_string().contains("search for other solutions"), "{error}");
 }
 
