@@ -72,9 +72,9 @@ pub const fn walk(sweeps: usize, start: Start, events: f64) -> Attempt {
 /// several starts end sooner than a long one. `cargo bench --features counters --bench mechanisms` counts which decide.
 pub const ATTEMPTS: [Attempt; 6] = [
     walk(0, Start::Swept, SHORT),
+    walk(0, Start::Pressed, ONCE),
     walk(30, Start::Swept, SHORT),
     walk(70, Start::Swept, SHORT),
-    walk(0, Start::Pressed, ONCE),
     walk(400, Start::Sure, LONG),
     Attempt { is_careful: true, ..walk(0, Start::Pressed, LONG) },
 ];

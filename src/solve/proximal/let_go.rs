@@ -100,11 +100,11 @@ const STEADY: f64 = 1e-2;
 const LEAST: f64 = 1e-13;
 
 /// Lets the springs go. Ends with a solution for `K`, with [`Ending::RunsAway`] and the motion `q` of T3, or because it
-/// finds neither.
-pub fn let_go(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+/// finds neither: `by_path` says if the path goes on where Newton's method fails on a problem with springs.
+pub fn let_go(call: &Call<'_>, by_path: bool, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, d) = (call.contact, call.start_or_zero());
     let units = (0..d.len()).map(|i| contact.problem().unit(i)).collect();
-    let mut springs = Springs { contact, settings: call.settings, units, d, systems: 0 };
+    let mut springs = Springs { contact, settings: call.settings, by_path, units, d, systems: 0 };
     let found = springs.let_go(monitor);
     let effort = Effort::of_systems(springs.systems);
     let candidate = |ending| Candidate::of_displacements(contact, springs.d, ending);
@@ -115,6 +115,8 @@ pub fn let_go(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
 struct Springs<'c> {
     contact: &'c Contact<'c>,
     settings: &'c Settings,
+    /// True if the path goes on where Newton's method fails.
+    by_path: bool,
     /// `D`.
     units: Vec<f64>,
     /// The solution with the springs of the last problem.
@@ -182,11 +184,12 @@ impl Springs<'_> {
         }
     }
 
-    /// The solution with springs `s`, by Newton's method from the last one, or `by_path` where that fails.
+    /// The solution with springs `s`, by Newton's method from the last one; where that fails, and it is the `last` try, by
+    /// the path.
     fn held(
         &mut self,
         s: f64,
-        by_path: bool,
+        is_last: bool,
         monitor: &mut Monitor<'_>,
     ) -> Result<Vec<f64>, Ending> {
         let n = self.units.len();
@@ -198,7 +201,7 @@ impl Springs<'_> {
         let tolerance = self.settings.tolerance.max(ROUGH);
         let settings = Settings { tolerance, ..self.settings.clone() };
         let mut candidate = self.newton(Call::new(&contact, &settings), MOST_SYSTEMS, monitor)?;
-        if by_path && !candidate.certificate(&contact).holds(tolerance) {
+        if is_last && self.by_path && !candidate.certificate(&contact).holds(tolerance) {
             let walk = if contact.dim() == 2 { path::linear } else { path::curved };
             candidate = walk(&Call::new(&contact, &settings).from(candidate.d()), monitor);
             self.systems += candidate.effort.factorisations;
@@ -284,7 +287,7 @@ mod tests {
         let settings = Settings { proof: true, ..Settings::default() };
         let mut monitor = Monitor::new(&settings, None);
         let contact = Contact::new(&problem);
-        let ending = let_go(&Call::new(&contact, &settings), &mut monitor).ending;
+        let ending = let_go(&Call::new(&contact, &settings), true, &mut monitor).ending;
         let Ending::RunsAway(motion) = ending else { panic!("the springs end otherwise") };
         // `s d - q` is of the size of `s`, which is less than 1e-8 here.
         for (q, exact) in motion.iter().zip([-2.0, -4.0, 0.0, -2.0, 0.0, 0.0]) {

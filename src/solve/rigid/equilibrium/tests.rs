@@ -1,9 +1,11 @@
 //! Motions of a body of three pairs that nothing holds, in closed form.
 
-use super::{Balance, STOPPED, solved};
+use super::{Balance, STOPPED, escape, solved};
 use crate::law::Contact;
 use crate::linalg::gmres::extend_basis;
+use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw};
+use crate::settings::Settings;
 use crate::solve::result::Ending;
 use crate::solve::rigid::motions::RigidMotions;
 use fastrand::Rng;
@@ -169,5 +171,35 @@ fn least_squares_solve_what_can_be_solved() {
             assert!(error <= 1e-12, "{rows:?}: {x:?}, {exact:?}, {units:?}");
         }
         assert_eq!(x[2], 0.0);
+    }
+}
+
+/// Four feet in space, tied by springs that resist all but translations, under loads whose resultant is steeper than
+/// friction by a part `eps` of it, or flatter: there is no equilibrium in the first case alone. The resultant's work on the
+/// slide that friction lifts is `eps mu` of the normal load: `eps` is far above the roundings of 1e-16, and a work above
+/// 1e-9 of all loads is one for the certificate.
+#[test]
+fn a_slope_that_is_too_steep_by_little_has_a_proof() {
+    let ties = |i: usize, j: usize| match (i % 3 == j % 3, i == j) {
+        (true, true) => 3.0,
+        (true, false) => -1.0,
+        _ => 0.0,
+    };
+    let k: Vec<f64> = (0..144).map(|at| ties(at / 12, at % 12)).collect();
+    let rng = &mut Rng::with_seed(8);
+    for seed in 0..200 {
+        let mu = 10_f64.powf(rng.f64() - 0.7);
+        let eps = [-1.0, 1.0][seed % 2] * 10_f64.powf(-6.0 - 2.0 * rng.f64());
+        let (sine, cosine) = (rng.f64() * std::f64::consts::TAU).sin_cos();
+        let slide = mu * (1.0 + eps);
+        let foot = |_| (0.5 + rng.f64()) * 2.0_f64.powi(-2);
+        let load: Vec<f64> =
+            (0..4).map(foot).flat_map(|p| [p, slide * cosine * p, slide * sine * p]).collect();
+        let mus = [mu; 4];
+        let of_pairs = (&[0.0; 4][..], FrictionLaw::Coulomb(&mus), None);
+        let problem = ContactProblem::of_test(3, (&k, &load), of_pairs);
+        let monitor = &mut Monitor::new(&Settings::default(), None);
+        let proof = escape(&Contact::new(&problem), monitor);
+        assert_eq!(proof.is_some(), eps > 0.0, "{seed}: mu {mu}, eps {eps:e}");
     }
 }
