@@ -165,3 +165,24 @@ fn interference_everywhere_after_a_slip() {
         assert!(residual <= TOLERANCE + rounding(&case, &solution.d), "seed {seed}: {residual:e}");
     }
 }
+
+/// Newton's method solves most of these from nothing: then it ends the call from any start, however far away that is, but
+/// for a solution of negative orientation, beside which others are looked for.
+#[test]
+fn no_start_keeps_newtons_method_from_what_it_solves_from_nothing() {
+    let mut from_nothing = 0;
+    for seed in 0..600 {
+        let mut rng = Rng::with_seed(seed);
+        let case = make(&mut rng, &plane(1..=30), up_to(2.0));
+        if solve(&case, None).method != Method::Newton {
+            continue;
+        }
+        from_nothing += 1;
+        let start: Vec<f64> = vector(&mut rng, case.size()).iter().map(|d| 1e3 * d).collect();
+        let solution = solve(&case, Some(&start));
+        let is_unstable = solution.fallback == Some((Method::Newton, Fallback::Unstable));
+        let by_newton = solution.method == Method::Newton || is_unstable;
+        assert!(by_newton, "seed {seed}: {}", solution.message);
+    }
+    assert!(from_nothing > 400, "{from_nothing}");
+}

@@ -1,10 +1,11 @@
 //! The one table of methods: what each takes, what runs it, and where it stands in a plan.
 
+use crate::counters::count;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::monitor::{Monitor, Stop};
 use crate::settings::Method;
-use crate::solve::result::{Call, Candidate, Ending};
+use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid::{self, Balance, leave_idle_motion};
 use crate::solve::{lcp, newton, path, proximal, sweeps};
 
@@ -120,8 +121,25 @@ const NEWTON: MethodRow = MethodRow {
     name: "Newton",
     start: Start::Own,
     refuses: |_| None,
-    run: |call, monitor| Ok(Some(newton::newton(call, monitor))),
+    run: |call, monitor| Ok(Some(newton_twice(call, monitor))),
 };
+
+/// Newton's method from the start of the call, and from nothing where that leads nowhere: where loads turn back, beams are
+/// solved from nothing in some systems, and from the displacements before by the path alone.
+fn newton_twice(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let (contact, tolerance) = (call.contact, call.settings.tolerance);
+    let found = newton::newton(call, monitor);
+    let is_over = found.ending == Ending::Done || found.is_settled(contact, tolerance);
+    if is_over || call.start.is_none() {
+        return found;
+    }
+    let alone = newton::newton(&Call { start: None, ..*call }, monitor);
+    count("Newton from nothing", 0, alone.ending == Ending::Done);
+    let systems = found.effort.factorisations + alone.effort.factorisations;
+    let is_nearer = alone.certificate(contact).eta < found.certificate(contact).eta;
+    let nearer = if is_nearer { alone } else { found };
+    nearer.with_effort(Effort::of_systems(systems))
+}
 
 /// The balance of rigid motions, where contact alone holds a body: it proves in most cases that no equilibrium exists,
 /// if there is none.
