@@ -73,34 +73,17 @@ const TURNS: usize = 4;
 /// turn the path back, or into a ray. Newton's method finds the rest of the digits.
 const END: f64 = 1e-10;
 
-/// Solves a problem without friction, or in 2D. It needs no start.
+/// Solves a problem without friction, or in 2D: follows a path to its end, and polishes the solution there. It needs no
+/// start.
 pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Error> {
-    let contact = call.contact;
+    let (contact, settings) = (call.contact, call.settings);
     let lcp = match ContactLcp::new(contact, monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
     let usual = LemkeRules::usual(false);
     let rules = if contact.is_frictionless() { usual } else { LemkeRules { end: END, ..usual } };
-    run(&lcp, call, rules, monitor)
-}
-
-/// The LCP with the cohesion of the covering vector against slip to either side.
-fn scaled<'l>(lcp: &'l ContactLcp<'_>, cohesion: [f64; 2]) -> Scaled<'l> {
-    let [q, covering, root] = lcp.vectors(cohesion);
-    let scale = root.iter().map(|root| root.recip()).collect();
-    Scaled::new(|j, column| lcp.write_column(j, column), &q, &covering, scale)
-}
-
-/// Follows a path to its end, and polishes the solution there.
-fn run(
-    lcp: &ContactLcp<'_>,
-    call: &Call<'_>,
-    rules: LemkeRules,
-    monitor: &mut Monitor<'_>,
-) -> Result<Candidate, Error> {
-    let (contact, settings) = (call.contact, call.settings);
-    let run = path::follow(&scaled(lcp, COHESIONS[0]), rules, monitor)?;
+    let run = path::follow(&scaled(&lcp, COHESIONS[0]), rules, monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -127,6 +110,13 @@ fn run(
     }
     candidate.effort.refactorisations = run.refactorisations;
     Ok(candidate)
+}
+
+/// The LCP with the cohesion of the covering vector against slip to either side.
+fn scaled<'l>(lcp: &'l ContactLcp<'_>, cohesion: [f64; 2]) -> Scaled<'l> {
+    let [q, covering, root] = lcp.vectors(cohesion);
+    let scale = root.iter().map(|root| root.recip()).collect();
+    Scaled::new(|j, column| lcp.write_column(j, column), &q, &covering, scale)
 }
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
