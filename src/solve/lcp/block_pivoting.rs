@@ -12,11 +12,13 @@ use crate::linalg::vector::opposite;
 use std::cell::Cell;
 
 use super::past::{Exchanged, Past};
+use super::refinement::Task;
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
-use crate::problem::{BoundedLcp, Lcp, LcpCertificate};
+use crate::problem::{BoundedLcp, LcpCertificate};
+use crate::settings::Settings;
 use crate::solve::pieces::{Before, Equations, REFINEMENTS, SMALL, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
@@ -70,14 +72,9 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
 }
 
 /// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds; after `most`
-/// systems it gives up. `magnitudes` are those of the LCP. The candidate has `x` for displacements and `w` for forces.
-pub fn lcp(
-    lcp: &Lcp<'_>,
-    magnitudes: &[f64],
-    tolerance: f64,
-    most: u64,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+/// systems it gives up. The candidate has `x` for displacements and `w` for forces.
+pub fn lcp(task: Task<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
+    let Task { lcp, magnitudes, settings: &Settings { tolerance, .. } } = task;
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
         matrix: lcp.matrix,

@@ -13,7 +13,17 @@ use crate::linalg::power_of_two::{OwnUnit, times_power_of_two};
 use crate::linalg::tolerances::{NEGLIGIBLE, SINGULAR, SINGULAR_BASIS};
 use crate::monitor::Monitor;
 use crate::problem::{Lcp, LcpCertificate};
+use crate::settings::Settings;
 use crate::solve::pieces::REFINEMENTS;
+
+/// An LCP that is to be solved.
+#[derive(Clone, Copy)]
+pub struct Task<'t> {
+    pub lcp: &'t Lcp<'t>,
+    /// Those of the LCP.
+    pub magnitudes: &'t [f64],
+    pub settings: &'t Settings,
+}
 
 /// A candidate `z + low` with its certificate.
 pub struct Refined {
@@ -27,11 +37,11 @@ pub struct Refined {
 
 impl Refined {
     /// `z` alone.
-    pub fn of(problem: (&Lcp<'_>, &[f64]), z: Vec<f64>) -> Self {
-        Self::in_parts(problem, z, Vec::new())
+    pub fn of(task: Task<'_>, z: Vec<f64>) -> Self {
+        Self::in_parts(task, z, Vec::new())
     }
 
-    fn in_parts((lcp, magnitudes): (&Lcp<'_>, &[f64]), z: Vec<f64>, low: Vec<f64>) -> Self {
+    fn in_parts(Task { lcp, magnitudes, .. }: Task<'_>, z: Vec<f64>, low: Vec<f64>) -> Self {
         let certificate = lcp.measure((&z, &low), magnitudes);
         Refined { z, low, certificate }
     }
@@ -49,13 +59,8 @@ impl Refined {
     }
 
     /// Refines the positive variables so that their `w` vanish, as far as that helps and until the tolerance is met.
-    pub fn refine(
-        &mut self,
-        problem: (&Lcp<'_>, &[f64]),
-        tolerance: f64,
-        monitor: &mut Monitor<'_>,
-    ) {
-        let (lcp, magnitudes) = problem;
+    pub fn refine(&mut self, task: Task<'_>, monitor: &mut Monitor<'_>) {
+        let Task { lcp, magnitudes, settings: &Settings { tolerance, .. } } = task;
         let basic: Vec<usize> = (0..self.z.len()).filter(|&i| self.z[i] > 0.0).collect();
         let is_hopeless = !self.certificate.eta.is_finite() || basic.is_empty();
         if is_hopeless || self.holds(tolerance) || monitor.affords(lu_work(basic.len())).is_err() {
@@ -83,7 +88,7 @@ impl Refined {
                 let (high, rest) = two_sum(sum, lost + low[i]);
                 (z[i], low[i]) = if high > 0.0 { (high, rest) } else { (0.0, 0.0) };
             }
-            let next = Refined::in_parts(problem, z, low);
+            let next = Refined::in_parts(task, z, low);
             if !(next.certificate.eta < self.certificate.eta) {
                 return;
             }
@@ -102,12 +107,8 @@ pub fn scales(magnitudes: &[f64]) -> Vec<f64> {
 
 /// A ray refined until it proves that there is no solution: entries of `Mᵀ y` that are zero but for the rounding of the
 /// ray's basis become so to the last digit. `None`: it proves nothing, or there is no time for it.
-pub fn proving_ray(
-    problem: (&Lcp<'_>, &[f64]),
-    y: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Option<Vec<f64>> {
-    let (lcp, magnitudes) = problem;
+pub fn proving_ray(task: Task<'_>, y: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+    let Task { lcp, magnitudes, .. } = task;
     let scale = scales(magnitudes);
     // The largest one gives the length.
     let size = |i: usize| y[i] / scale[i];

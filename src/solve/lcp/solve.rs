@@ -1,15 +1,15 @@
 //! The linear complementarity problem, by block pivoting and by Lemke's method.
 
 use super::block_pivoting;
-use super::lemke::{self, LemkeRules, LemkeRun, Scaled};
-use super::refinement::{Refined, proving_ray, scales};
+use super::lemke::{self, LemkeRules, Scaled};
+use super::refinement::{Refined, Task, proving_ray, scales};
 use crate::error::{Argument, Error, Message, entry};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{first_not_finite, largest_of, normalise};
 use crate::monitor::Monitor;
 use crate::problem::Lcp;
 use crate::settings::{Method, Settings};
-use crate::solve::result::{Ending, Fallback, Status, check_limit, memory};
+use crate::solve::result::{Effort, Ending, Fallback, Status, check_limit, memory};
 
 /// Result of an LCP.
 #[derive(Clone, Debug)]
@@ -55,10 +55,9 @@ pub fn solve_lcp(
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
     check_limit(memory(lcp.size()), settings)?;
-    let magnitudes = lcp.magnitudes();
-    let problem = (lcp, magnitudes.as_slice());
+    let task = Task { lcp, magnitudes: &lcp.magnitudes(), settings };
     let pivoted = match settings.method {
-        Method::Auto | Method::BlockPivoting => Some(by_pivoting(problem, settings, monitor)),
+        Method::Auto | Method::BlockPivoting => Some(by_pivoting(task, monitor)),
         Method::Lemke => None,
         _ => {
             let message =
@@ -75,7 +74,7 @@ pub fn solve_lcp(
         Some(pivoted) if done(&pivoted) => return Ok(pivoted.0),
         other => other,
     };
-    let mut solution = by_lemke(problem, settings, monitor)?;
+    let mut solution = by_lemke(task, monitor)?;
     if let Some((before, ending)) = pivoted {
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         if !decided && before.eta < solution.eta {
@@ -89,43 +88,29 @@ pub fn solve_lcp(
 }
 
 /// Block pivoting, and how it ended.
-fn by_pivoting(
-    problem: (&Lcp<'_>, &[f64]),
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> (LcpSolution, Ending) {
-    let (lcp, magnitudes) = problem;
-    let n = lcp.size();
-    let (mut z, mut factorisations) = (vec![0.0; n], 0);
-    let ending = if (0..n).any(|i| !(lcp.column(i)[i] > 0.0)) {
+fn by_pivoting(task: Task<'_>, monitor: &mut Monitor<'_>) -> (LcpSolution, Ending) {
+    let n = task.lcp.size();
+    let (mut z, mut effort) = (vec![0.0; n], Effort::default());
+    let ending = if (0..n).any(|i| !(task.lcp.column(i)[i] > 0.0)) {
         Ending::Singular
     } else if n == 0 {
         Ending::Done
     } else {
-        let chosen = settings.method == Method::BlockPivoting;
+        let chosen = task.settings.method == Method::BlockPivoting;
         let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
-        let pivoted = block_pivoting::lcp(lcp, magnitudes, settings.tolerance, most, monitor);
+        let pivoted = block_pivoting::lcp(task, most, monitor);
         // Written so that NaN stays NaN.
         z = pivoted.d().iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
-        factorisations = pivoted.effort.factorisations;
+        effort = pivoted.effort;
         pivoted.ending
     };
-    let mut found = Refined::of(problem, z);
-    if ending == Ending::Done {
-        found.refine(problem, settings.tolerance, monitor);
-    }
-    let mut solution = certified(problem, settings, Method::BlockPivoting, found, &ending, monitor);
-    (solution.iterations, solution.factorisations) = (monitor.iterations(), factorisations);
-    (solution, ending)
+    let found = at_end(task, z, &ending, monitor);
+    (certified(task, Method::BlockPivoting, found, (&ending, effort), monitor), ending)
 }
 
 /// Lemke's method; a path whose end has lost accuracy is followed once more.
-fn by_lemke(
-    problem: (&Lcp<'_>, &[f64]),
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
-) -> Result<LcpSolution, Error> {
-    let (lcp, magnitudes) = problem;
+fn by_lemke(task: Task<'_>, monitor: &mut Monitor<'_>) -> Result<LcpSolution, Error> {
+    let Task { lcp, magnitudes, settings } = task;
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale = scales(magnitudes);
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
@@ -134,56 +119,53 @@ fn by_lemke(
     let scaled = Scaled::new(fill, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
-    let (mut run, mut found) = end_of_path(problem, settings, (&scaled, rules(false)), monitor)?;
+    let mut end_of_path = |thorough| {
+        let mut run = lemke::follow(&scaled, rules(thorough), monitor)?;
+        let found = at_end(task, std::mem::take(&mut run.z), &run.ending, monitor);
+        Ok::<_, Error>((run, found))
+    };
+    let (mut run, mut found) = end_of_path(false)?;
     let lost_accuracy = match run.ending {
         Ending::Done => !found.holds(settings.tolerance),
         Ending::Recession(_) | Ending::Stopped(_) => false,
         _ => true,
     };
     if lost_accuracy {
-        (run, found) = end_of_path(problem, settings, (&scaled, rules(true)), monitor)?;
+        (run, found) = end_of_path(true)?;
     }
-    let mut solution = certified(problem, settings, Method::Lemke, found, &run.ending, monitor);
-    (solution.iterations, solution.refactorisations) = (monitor.iterations(), run.refactorisations);
-    Ok(solution)
+    let effort = Effort { refactorisations: run.refactorisations, ..Effort::default() };
+    Ok(certified(task, Method::Lemke, found, (&run.ending, effort), monitor))
 }
 
-/// A path and the candidate at its end, refined.
-fn end_of_path(
-    problem: (&Lcp<'_>, &[f64]),
-    settings: &Settings,
-    (scaled, rules): (&Scaled<'_>, LemkeRules),
-    monitor: &mut Monitor<'_>,
-) -> Result<(LemkeRun, Refined), Error> {
-    let mut run = lemke::follow(scaled, rules, monitor)?;
-    let mut found = Refined::of(problem, std::mem::take(&mut run.z));
-    if run.ending == Ending::Done {
-        found.refine(problem, settings.tolerance, monitor);
+/// The candidate with which a method has ended, refined if the method is done.
+fn at_end(task: Task<'_>, z: Vec<f64>, ending: &Ending, monitor: &mut Monitor<'_>) -> Refined {
+    let mut found = Refined::of(task, z);
+    if *ending == Ending::Done {
+        found.refine(task, monitor);
     }
-    Ok((run, found))
+    found
 }
 
 /// The result of a candidate, with which a method has ended.
 fn certified(
-    problem: (&Lcp<'_>, &[f64]),
-    settings: &Settings,
+    task: Task<'_>,
     method: Method,
     mut found: Refined,
-    ending: &Ending,
+    (ending, effort): (&Ending, Effort),
     monitor: &mut Monitor<'_>,
 ) -> LcpSolution {
-    let n = problem.0.size();
+    let (n, settings) = (task.lcp.size(), task.settings);
     let mut w: Vec<f64> = (0..n).map(|i| found.slack(i)).collect();
     let overflow = overflow(&w, &found.z);
     if overflow.is_some() || !found.certificate.eta.is_finite() {
         // Only numbers are returned: those of z = 0, whose eta is 1 at most.
-        found = Refined::of(problem, vec![0.0; n]);
+        found = Refined::of(task, vec![0.0; n]);
         w = (0..n).map(|i| found.slack(i)).collect();
     }
     let eta = found.certificate.eta;
     let holds = overflow.is_none() && found.holds(settings.tolerance);
     let infeasible_by = match ending {
-        Ending::Recession(ray) if !holds => proof(problem, ray, monitor),
+        Ending::Recession(ray) if !holds => proof(task, ray, monitor),
         _ => None,
     };
     let wanted = || format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
@@ -215,9 +197,9 @@ fn certified(
         rounding: found.certificate.rounding,
         method,
         fallback: None,
-        iterations: 0,
-        factorisations: 0,
-        refactorisations: 0,
+        iterations: monitor.iterations(),
+        factorisations: effort.factorisations,
+        refactorisations: effort.refactorisations,
     }
 }
 
@@ -225,14 +207,13 @@ fn certified(
 const ROUNDED: &str = "z rounded to doubles hides q";
 
 /// The vector that proves by a ray that there is no solution, its largest entry 1.
-fn proof(problem: (&Lcp<'_>, &[f64]), ray: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
-    let (lcp, magnitudes) = problem;
-    let few = without_digits(ray, magnitudes);
-    let mut proof = if lcp.is_infeasible_by(&few) {
+fn proof(task: Task<'_>, ray: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+    let few = without_digits(ray, task.magnitudes);
+    let mut proof = if task.lcp.is_infeasible_by(&few) {
         few
     } else {
         // Digits that rounding has left are none of a proof; small entries may be.
-        proving_ray(problem, &few, monitor).or_else(|| proving_ray(problem, ray, monitor))?
+        proving_ray(task, &few, monitor).or_else(|| proving_ray(task, ray, monitor))?
     };
     normalise(&mut proof);
     Some(proof)

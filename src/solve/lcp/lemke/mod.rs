@@ -10,5 +10,5 @@ mod tableau;
 
 pub use bimatrix::missing_label;
 pub use contact::{ends, solve as contact};
-pub use path::{LemkeRules, LemkeRun, follow};
+pub use path::{LemkeRules, follow};
 pub use scaled::Scaled;
