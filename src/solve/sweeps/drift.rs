@@ -14,27 +14,25 @@ use crate::solve::rigid::escape;
 /// Looks at the iterates of sweeps 256, 512, 1024, …
 pub struct DriftDetector {
     sweeps: u64,
-    next: u64,
     before: Vec<f64>,
 }
 
-/// The first look: most problems that have a solution are solved before, and a look costs a dense
+/// The first look, a power of two: most problems that have a solution are solved before, and a look costs a dense
 /// factorisation. Looks are then spaced at doubling counts, so that their number stays small.
 const FIRST_LOOK: u64 = 256;
 
 impl DriftDetector {
     /// Starts at the unknowns `x`.
     pub fn new(x: &[f64]) -> Self {
-        DriftDetector { sweeps: 0, next: FIRST_LOOK, before: x.to_vec() }
+        DriftDetector { sweeps: 0, before: x.to_vec() }
     }
 
     /// Counts a sweep that has led to `x`; returns the drift since the last look if it is time for one.
     pub fn observe(&mut self, x: &[f64]) -> Option<Vec<f64>> {
         self.sweeps += 1;
-        if self.sweeps < self.next {
+        if self.sweeps < FIRST_LOOK || !self.sweeps.is_power_of_two() {
             return None;
         }
-        self.next *= 2;
         let drift = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
         self.before.copy_from_slice(x);
         Some(drift)

@@ -1,7 +1,6 @@
 //! Projected over-relaxed Gauss–Seidel (Cryer, Christopherson; paper, section 2).
 
 mod blocks;
-mod clearances;
 mod contact;
 mod drift;
 mod driver;
@@ -9,10 +8,9 @@ mod fixed_point;
 mod frictionless;
 mod relaxation;
 
-pub use clearances::sweep as sweep_lcp;
 pub use contact::sweep_in_time as sweep_pairs;
 pub use fixed_point::{nested, single};
-pub use frictionless::frictionless;
+pub use frictionless::{frictionless, sweep as sweep_lcp};
 
 use crate::monitor::Monitor;
 
