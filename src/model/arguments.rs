@@ -2,19 +2,12 @@
 
 use crate::error::{Argument, Error, entry, index};
 use crate::law::{first_open_tie, first_penetration, first_tension};
-use crate::problem::{FrictionLaw, Named, check_finite};
+use crate::problem::{FrictionLaw, Named, check_count, check_finite};
 
 /// Refuses a vector of the wrong length, or with entries that are not finite.
-pub(super) fn check_vector(
-    (name, argument): Named<'_>,
-    values: &[f64],
-    length: usize,
-) -> Result<(), Error> {
-    if values.len() != length {
-        let message = format!("{name} has {} entries, it must have {length}", values.len());
-        return Err(Error::invalid(argument, message));
-    }
-    check_finite((name, argument), values)
+pub(super) fn check_vector(named: Named<'_>, values: &[f64], length: usize) -> Result<(), Error> {
+    check_count(named, values.len(), length)?;
+    check_finite(named, values)
 }
 
 /// Refuses a penetration, and the gap of a tie, that supports on both sides of a pair hold: no displacement takes it away. A

@@ -3,7 +3,7 @@
 
 use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
-use crate::problem::{StiffnessOperator, checked_dim, unknowns};
+use crate::problem::{StiffnessOperator, check_count, checked_dim, unknowns};
 use crate::reduce::{
     HostOperator, OperatorReduction, PreconditionedOperator, PreconditionedReduction,
 };
@@ -24,10 +24,7 @@ impl Model {
         units: Option<&[f64]>,
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        if let Some(units) = units.filter(|units| units.len() != size) {
-            let message = format!("units has {} entries, it must have {size}", units.len());
-            return Err(Error::invalid(Argument::Matrix, message));
-        }
+        check_count(("units", Argument::Matrix), units.map_or(size, <[f64]>::len), size)?;
         let reduction = Box::new(OperatorReduction::new(operator, (dim, pairs), units)?);
         Ok(Model { dim, pairs, reduction })
     }

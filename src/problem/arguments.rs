@@ -44,12 +44,17 @@ pub(super) fn vector<'a>(
 }
 
 /// Refuses an array with fewer entries than are needed.
-pub(super) fn check_length(
+pub(super) fn check_length(named: Named<'_>, given: usize, needed: usize) -> Result<(), Error> {
+    check_count(named, given.min(needed), needed)
+}
+
+/// Refuses an array with more entries or fewer than are needed.
+pub(crate) fn check_count(
     (name, argument): Named<'_>,
     given: usize,
     needed: usize,
 ) -> Result<(), Error> {
-    if given >= needed {
+    if given == needed {
         return Ok(());
     }
     let message = format!("{name} has {given} entries, it must have {needed}");

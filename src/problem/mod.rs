@@ -25,7 +25,8 @@ mod units;
 
 pub use crate::linalg::matrix::Residual;
 pub(crate) use arguments::{
-    Named, OF_MATRIX, check_finite, check_finite_matrix, check_gaps, checked_dim, dense, unknowns,
+    Named, OF_MATRIX, check_count, check_finite, check_finite_matrix, check_gaps, checked_dim,
+    dense, unknowns,
 };
 pub(crate) use bounded_lcp::BoundedLcp;
 pub(crate) use by_equilibrium::OfLeastEnergy;

@@ -23,12 +23,12 @@ mod uniqueness;
 mod units;
 
 use crate::certificate::measure;
-use crate::error::{Argument, Error, Limit, entry};
+use crate::error::{Argument, Error, Limit};
 use crate::law::Contact;
-use crate::linalg::vector::first_not_finite;
 use crate::monitor::Monitor;
 use crate::problem::{
-    ContactProblem, DependentRows, FlexibilityForm, FlexibilityProblem, Relation, Units, in_units,
+    ContactProblem, DependentRows, FlexibilityForm, FlexibilityProblem, Relation, Units,
+    check_count, check_finite, in_units,
 };
 use crate::settings::{Search, Settings};
 
@@ -254,15 +254,6 @@ fn check<R: Relation>(
 
 pub(crate) fn check_start(name: &str, n: usize, start: Option<&[f64]>) -> Result<(), Error> {
     let Some(start) = start else { return Ok(()) };
-    if start.len() != n {
-        let message = format!("the start has {} entries, it must have {n}", start.len());
-        return Err(Error::invalid(Argument::Start, message));
-    }
-    match first_not_finite(start) {
-        Some(i) => {
-            let message = format!("the start {} is not finite", entry(name, [i]));
-            Err(Error::invalid(Argument::Start, message))
-        }
-        None => Ok(()),
-    }
+    check_count(("the start", Argument::Start), start.len(), n)?;
+    check_finite((&format!("the start {name}"), Argument::Start), start)
 }
