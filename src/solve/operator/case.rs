@@ -1,7 +1,7 @@
 //! A load case on bodies whose stiffness is not formed: its solution, and the measure of a result.
 
 use super::free_motions::FreeMotions;
-use super::newton::{self, Outcome};
+use super::newton::{self, Outcome, Tried};
 use super::past::CasePast;
 use super::point::{Displacements, Equations, Point};
 use super::session::Session;
@@ -68,19 +68,19 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     check(settings)?;
     let mut bodies = Session::new(bodies);
-    let loaded = Loaded::new(&mut bodies, case, past, monitor)?;
+    let loaded = Loaded::new(&mut bodies, (case, settings), past, monitor)?;
     let whole = loaded.problem(&bodies, case.gap)?;
-    let (contact, how) = (&Contact::new(&whole), (settings, start));
+    let contact = &Contact::new(&whole);
     let mut solution = None;
     if let Some(gaps) = gaps_within_reach(contact, &[], FAR) {
         let near = loaded.problem(&bodies, &gaps)?;
         let near = &Contact::new(&near);
-        let found = loaded.solve((contact, near), &mut bodies, how, past, monitor)?;
+        let found = loaded.solve((contact, near), &mut bodies, start, past, monitor)?;
         solution = Some(found).filter(|found| found.status != Status::Stalled);
     }
     let solution = match solution {
         Some(solution) => solution,
-        None => loaded.solve((contact, contact), &mut bodies, how, past, monitor)?,
+        None => loaded.solve((contact, contact), &mut bodies, start, past, monitor)?,
     };
     let Session { solutions, factorisations, .. } = bodies;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
@@ -96,8 +96,9 @@ pub fn certify(
     d: &[f64],
 ) -> Result<Certificate, Error> {
     let mut bodies = Session::new(bodies);
-    let endless = &mut Monitor::new(&Settings::default(), None);
-    let loaded = Loaded::new(&mut bodies, case, &mut CasePast::default(), endless)?;
+    let settings = &Settings::default();
+    let endless = &mut Monitor::new(settings, None);
+    let loaded = Loaded::new(&mut bodies, (case, settings), &mut CasePast::default(), endless)?;
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
@@ -109,6 +110,7 @@ pub fn certify(
 /// A load case with what the bodies say of it where all pairs are held.
 struct Loaded<'a> {
     case: &'a Case<'a>,
+    settings: &'a Settings,
     /// Displacements where those of the pairs are zero.
     at_zero: Displacements,
     /// The residual there.
@@ -122,7 +124,7 @@ struct Loaded<'a> {
 impl<'a> Loaded<'a> {
     fn new(
         bodies: &mut Session<'_>,
-        case: &'a Case<'a>,
+        (case, settings): (&'a Case<'a>, &'a Settings),
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
@@ -138,7 +140,7 @@ impl<'a> Loaded<'a> {
         };
         let residual = bodies.residual(&at_zero.x, &at_zero.low, case.load)?;
         let relative = opposite(&residual[inner..]);
-        Ok(Loaded { case, at_zero, residual, relative, stopped })
+        Ok(Loaded { case, settings, at_zero, residual, relative, stopped })
     }
 
     /// The contact problem with these gaps.
@@ -183,23 +185,22 @@ impl<'a> Loaded<'a> {
         &self,
         contact: &Contact<'_, MatrixFree<'_>>,
         bodies: &mut Session<'_>,
-        with: (&Settings, &Case<'_>),
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<Option<Solution>, Error> {
-        let is_solved = |rest: &Solution| rest.status == Status::Solved;
-        let at_zero = ((&self.at_zero, &self.residual[..]), &Ending::Done);
-        let rest = Some(result(contact, bodies, with, at_zero, past)).filter(is_solved);
+        let mut rest_at = |at: &Displacements, residual: &[f64], bodies: &mut Session<'_>| {
+            let rest = self.result(contact, bodies, ((at, residual), &Ending::Done), past);
+            Some(rest).filter(|rest| rest.status == Status::Solved)
+        };
+        let rest = rest_at(&self.at_zero, &self.residual, bodies);
         if rest.is_some() {
             return Ok(rest);
         }
-        let (at_zero, load) = (self.at_zero.clone(), self.case.load);
-        let Ok(at) = ended(at_zero.settled((bodies, self.case.dim), load, monitor))? else {
-            return Ok(None);
-        };
+        let Case { dim, load, .. } = *self.case;
+        let settled = self.at_zero.clone().settled((bodies, dim), load, monitor);
+        let Ok(at) = ended(settled)? else { return Ok(None) };
         let residual = bodies.residual(&at.x, &at.low, load)?;
-        let settled = ((&at, &residual[..]), &Ending::Done);
-        Ok(Some(result(contact, bodies, with, settled, past)).filter(is_solved))
+        Ok(rest_at(&at, &residual, bodies))
     }
 
     /// Solves the contact `near`, and measures the result on `contact`, which has further obstacles.
@@ -207,36 +208,58 @@ impl<'a> Loaded<'a> {
         &self,
         (contact, near): (&Contact<'_, MatrixFree<'_>>, &Contact<'_, MatrixFree<'_>>),
         bodies: &mut Session<'_>,
-        (settings, start): (&Settings, Option<&[f64]>),
+        start: Option<&[f64]>,
         past: &mut CasePast,
         monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
-        let (inner, with) = (bodies.operator.inner(), (settings, self.case));
         let at_zero = (&self.at_zero, &self.residual[..]);
         if contact.is_unloaded()
-            && let Some(rest) = self.rest(contact, bodies, with, past, monitor)?
+            && let Some(rest) = self.rest(contact, bodies, past, monitor)?
         {
             return Ok(rest);
         }
         let at = match ended(self.start(near, bodies, (start, past), monitor))? {
             Ok(at) => at,
-            Err(ending) => return Ok(result(contact, bodies, with, (at_zero, &ending), past)),
+            Err(ending) => return Ok(self.result(contact, bodies, (at_zero, &ending), past)),
         };
-        let equations = Equations::new(near, bodies.operator, self.case.load, settings.tolerance);
+        let tolerance = self.settings.tolerance;
+        let equations = Equations::new(near, bodies.operator, self.case.load, tolerance);
         let Outcome { point, ending, .. } = by_attempts(&equations, bodies, &at, monitor)?;
         let found = ((&point.at, &point.residual[..]), &ending);
-        let mut solution = result(contact, bodies, with, found, past);
+        let mut solution = self.result(contact, bodies, found, past);
         if let Ending::Recession(motion) = ending
             && solution.status == Status::Stalled
             && is_spread_escape(contact, bodies.operator, &motion)?
         {
             solution.status = Status::NoEquilibrium;
-            let mut motion = motion[inner..].to_vec();
+            let mut motion = motion[bodies.operator.inner()..].to_vec();
             normalise(&mut motion);
             solution.recession = Some(motion);
             describe(contact, bodies, &mut solution, monitor)?;
         }
         Ok(solution)
+    }
+
+    /// The result at displacements of all unknowns with their residual, by its certificate.
+    fn result(
+        &self,
+        contact: &Contact<'_, MatrixFree<'_>>,
+        bodies: &mut Session<'_>,
+        ((at, residual), ending): ((&Displacements, &[f64]), &Ending),
+        past: &mut CasePast,
+    ) -> Solution {
+        let settings = self.settings;
+        let certificate = measure_spread(contact, bodies.operator, &at.x, residual);
+        let certificate = certificate.with_rounding(settings.tolerance);
+        let d = at.x[bodies.operator.inner()..].to_vec();
+        if certificate.holds(settings.tolerance) {
+            bodies.operator.remember(self.case.load, &at.x);
+            past.solved(at.clone());
+        }
+        let told = ending.status(settings, &certificate);
+        let mut solution = Solution::of(Method::Newton, told, d, certificate);
+        remark_on_data(contact.problem(), settings, &mut solution);
+        solution
     }
 }
 
@@ -250,30 +273,26 @@ fn by_attempts(
     monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let point = equations.held_at(start.clone(), bodies)?;
-    let mut best = newton::solve(equations, bodies, point, monitor)?;
+    let best = newton::solve(equations, bodies, point, monitor)?;
+    let mut tried = Tried { equations, bodies, start, best };
     for attempt in [balance, condensed::solve, thresholds::solve, refine] {
-        let Point { at, residual, merit, .. } = &best.point;
-        let certificate = measure_spread(equations.contact, bodies.operator, &at.x, residual);
-        let has_ended = matches!(best.ending, Ending::Stopped(_) | Ending::Recession(_));
+        let Outcome { point: Point { at, residual, merit, .. }, ending, .. } = &tried.best;
+        let certificate = measure_spread(equations.contact, tried.bodies.operator, &at.x, residual);
+        let has_ended = matches!(ending, Ending::Stopped(_) | Ending::Recession(_));
         if has_ended || certificate.holds(equations.tolerance) || !merit.is_finite() {
             break;
         }
-        if let Err(ending) = ended(attempt(equations, bodies, start, &mut best, monitor))? {
-            best.ending = ending;
+        if let Err(ending) = ended(attempt(&mut tried, monitor))? {
+            tried.best.ending = ending;
         }
     }
-    Ok(best)
+    Ok(tried.best)
 }
 
 /// Ends with a free motion that proves that no equilibrium exists: one that the balance of the loads finds, or that of the
 /// displacements that Newton's method has ended with.
-fn balance(
-    equations: &Equations<'_>,
-    bodies: &mut Session<'_>,
-    _start: &Displacements,
-    best: &mut Outcome,
-    monitor: &mut Monitor<'_>,
-) -> Result<(), Ending> {
+fn balance(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    let Tried { equations, bodies, best, .. } = tried;
     let contact = equations.contact;
     let Some(motions) = FreeMotions::of(bodies, contact.dim(), monitor)? else { return Ok(()) };
     let (balance, d) = (motions.balance(contact, bodies.operator), &best.point.at.x);
@@ -287,13 +306,8 @@ fn balance(
 }
 
 /// Takes inner displacements that are in equilibrium with those of the pairs, if that leaves less.
-fn refine(
-    equations: &Equations<'_>,
-    bodies: &mut Session<'_>,
-    _start: &Displacements,
-    best: &mut Outcome,
-    monitor: &mut Monitor<'_>,
-) -> Result<(), Ending> {
+fn refine(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    let Tried { equations, bodies, best, .. } = tried;
     let (at, dim) = (best.point.at.clone(), equations.contact.dim());
     let point = equations.held_at(at.settled((bodies, dim), equations.load, monitor)?, bodies)?;
     if point.eta < best.point.eta {
@@ -323,25 +337,4 @@ fn ended<T>(result: Result<T, Ending>) -> Result<Result<T, Ending>, Error> {
         Err(Ending::Failed(error)) => Err(error),
         result => Ok(result),
     }
-}
-
-/// The result at displacements of all unknowns with their residual, by its certificate.
-fn result(
-    contact: &Contact<'_, MatrixFree<'_>>,
-    bodies: &mut Session<'_>,
-    (settings, case): (&Settings, &Case<'_>),
-    ((at, residual), ending): ((&Displacements, &[f64]), &Ending),
-    past: &mut CasePast,
-) -> Solution {
-    let certificate = measure_spread(contact, bodies.operator, &at.x, residual);
-    let certificate = certificate.with_rounding(settings.tolerance);
-    let d = at.x[bodies.operator.inner()..].to_vec();
-    if certificate.holds(settings.tolerance) {
-        bodies.operator.remember(case.load, &at.x);
-        past.solved(at.clone());
-    }
-    let told = ending.status(settings, &certificate);
-    let mut solution = Solution::of(Method::Newton, told, d, certificate);
-    remark_on_data(contact.problem(), settings, &mut solution);
-    solution
 }

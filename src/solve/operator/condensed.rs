@@ -11,7 +11,7 @@
 //! the dense problem has no equilibrium, its motion is continued to all unknowns, and the certificate judges it.
 
 use super::memory::{memory_of_components, room};
-use super::newton::{self, Outcome, improve};
+use super::newton::{self, Tried, improve};
 use super::point::{Displacements, Equations, Point};
 use super::session::Session;
 use crate::certificate::is_spread_escape;
@@ -33,13 +33,8 @@ pub fn fits(components: usize, (inner, all): (usize, usize)) -> bool {
 }
 
 /// Goes on from a try that has failed.
-pub fn solve(
-    equations: &Equations<'_>,
-    bodies: &mut Session<'_>,
-    _start: &Displacements,
-    best: &mut Outcome,
-    monitor: &mut Monitor<'_>,
-) -> Result<(), Ending> {
+pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    let Tried { equations, bodies, best, .. } = tried;
     if !bodies.operator.is_exact() {
         return Ok(());
     }

@@ -1,7 +1,7 @@
 //! Newton's method on an operator: its steps by GMRES.
 
 use super::directions::{MOST_DIRECTIONS, Moved};
-use super::point::{Equations, Point};
+use super::point::{Displacements, Equations, Point};
 use super::session::Session;
 use super::system::{Step, System, changed};
 use crate::error::Error;
@@ -26,6 +26,15 @@ const CHANGED: f64 = 0.02;
 
 /// How Newton's method ended, and where.
 pub type Outcome = NewtonOutcome<Point>;
+
+/// What has been tried, with its best outcome.
+pub struct Tried<'t, 'b> {
+    pub equations: &'t Equations<'t>,
+    pub bodies: &'t mut Session<'b>,
+    /// The first displacements, inner ones in equilibrium.
+    pub start: &'t Displacements,
+    pub best: Outcome,
+}
 
 /// Solves from a point. The residual of the last point is measured: where products are dear it is
 /// followed from step to step, has the rounding of all of them, and may hide what is left.

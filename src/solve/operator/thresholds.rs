@@ -2,9 +2,8 @@
 //! Newton's method, which has one solution to find then, and Newton's method for the law itself from where each of
 //! them ends.
 
-use super::newton::{self, Outcome, improve};
-use super::point::{Displacements, Equations};
-use super::session::Session;
+use super::newton::{self, Tried, improve};
+use super::point::Equations;
 use crate::law::Contact;
 use crate::monitor::Monitor;
 use crate::problem::MatrixFree;
@@ -16,14 +15,9 @@ const ROUNDS: usize = 4;
 /// Tolerance of one: its solution is a start alone.
 const ROUGH: f64 = 1e-3;
 
-/// Goes on from a first try that has failed; `start` has its inner unknowns in equilibrium.
-pub fn solve(
-    equations: &Equations<'_>,
-    bodies: &mut Session<'_>,
-    start: &Displacements,
-    best: &mut Outcome,
-    monitor: &mut Monitor<'_>,
-) -> Result<(), Ending> {
+/// Goes on from a first try that has failed.
+pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    let Tried { equations, bodies, start, best } = tried;
     if !equations.contact.is_coupled() {
         return Ok(());
     }
@@ -33,7 +27,7 @@ pub fn solve(
         let (d, forces) = (&point.at.x[equations.inner..], &point.residual[equations.inner..]);
         contact.set_thresholds(&contact.thresholds(d, forces));
         let root = equations.root.clone();
-        let given = Equations { contact: &contact, root, tolerance: ROUGH, ..*equations };
+        let given = Equations { contact: &contact, root, tolerance: ROUGH, ..**equations };
         let from = given.held_at(point.at, bodies)?;
         let between = newton::solve(&given, bodies, from, monitor)?;
         if let Ending::Stopped(stop) = between.ending {
