@@ -1,6 +1,6 @@
-//! Detects the divergence of sweeps along a rigid-body motion.
+//! The divergence of sweeps along a rigid-body motion.
 //!
-//! The drift is the change between two looks. Components that did not move are taken as fixed. If the
+//! The drift is the change of displacements between two looks. Components that did not move are taken as fixed. If the
 //! matrix is singular on the others, its factor tells which of them depend on the rest: the null vector
 //! that agrees with the drift on these has none of the drift's elastic part.
 
@@ -10,34 +10,6 @@ use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
 use crate::problem::FreeBlock;
 use crate::solve::rigid::escape;
-
-/// Looks at the iterates of sweeps 256, 512, 1024, …
-pub struct DriftDetector {
-    sweeps: u64,
-    before: Vec<f64>,
-}
-
-/// The first look, a power of two: most problems that have a solution are solved before, and a look costs a dense
-/// factorisation. Looks are then spaced at doubling counts, so that their number stays small.
-const FIRST_LOOK: u64 = 256;
-
-impl DriftDetector {
-    /// Starts at the unknowns `x`.
-    pub fn new(x: &[f64]) -> Self {
-        DriftDetector { sweeps: 0, before: x.to_vec() }
-    }
-
-    /// Counts a sweep that has led to `x`; returns the drift since the last look if it is time for one.
-    pub fn observe(&mut self, x: &[f64]) -> Option<Vec<f64>> {
-        self.sweeps += 1;
-        if self.sweeps < FIRST_LOOK || !self.sweeps.is_power_of_two() {
-            return None;
-        }
-        let drift = x.iter().zip(&self.before).map(|(x, before)| x - before).collect();
-        self.before.copy_from_slice(x);
-        Some(drift)
-    }
-}
 
 /// A recession direction of a contact problem, from the drift of its displacements.
 ///

@@ -1,8 +1,7 @@
 //! Sweeps until a target is met: over-relaxation, drift and budgets around what is [`Swept`].
 
-use super::Swept;
-use super::drift::DriftDetector;
 use super::relaxation::Relaxation;
+use super::swept::Swept;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::linalg::vector::norm_inf;
 use crate::monitor::Monitor;
@@ -10,14 +9,16 @@ use crate::settings::Settings;
 use crate::solve::result::Ending;
 
 /// The driver of projected SOR.
-pub struct Driver<'m, 'c, P> {
-    pub problem: P,
+pub struct Driver<'m, 'c, 'p> {
+    pub problem: Swept<'p>,
     /// The iterate, and its residual, which is carried along.
     pub x: Vec<f64>,
     pub w: Vec<f64>,
     /// Chooses the factor of the next sweep.
     pub relaxation: Relaxation,
-    drift: DriftDetector,
+    /// Sweeps so far, and the unknowns at the last look at their drift.
+    sweeps: u64,
+    looked_at: Vec<f64>,
     monitor: &'m mut Monitor<'c>,
     /// `eta` when it was last halved, and the sweeps until then.
     milestone: (f64, u64),
@@ -31,6 +32,10 @@ pub struct Driver<'m, 'c, P> {
 /// an error, and the measured rate says nothing meanwhile.
 pub const LARGEST_FACTOR: f64 = 1.97;
 
+/// The first look at the drift, a power of two: most problems that have a solution are solved before, and a look costs a
+/// dense factorisation. Looks are then spaced at doubling counts, so that their number stays small.
+const FIRST_LOOK: u64 = 256;
+
 /// Sweeps after which a standstill is looked for.
 const ROUND: u64 = 1000;
 
@@ -41,17 +46,18 @@ const STAGNATION: u64 = 5000;
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
 
-impl<'m, 'c, P: Swept> Driver<'m, 'c, P> {
+impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
     /// Starts from `x`, which is admissible; a factor that the settings do not give is chosen below
     /// `largest_factor`.
     pub fn new(
-        (problem, x): (P, Vec<f64>),
+        (problem, x): (Swept<'p>, Vec<f64>),
         settings: &Settings,
         largest_factor: f64,
         monitor: &'m mut Monitor<'c>,
     ) -> Self {
         Driver {
-            drift: DriftDetector::new(&x),
+            sweeps: 0,
+            looked_at: x.clone(),
             relaxation: Relaxation::new(settings.omega, largest_factor, x.len()),
             w: problem.residual(&x),
             problem,
@@ -109,9 +115,7 @@ impl<'m, 'c, P: Swept> Driver<'m, 'c, P> {
             self.monitor.step()?;
             change = self.problem.sweep(&mut self.x, &mut self.w, self.relaxation.omega);
             self.relaxation.observe(change);
-            if let Some(drift) = self.drift.observe(&self.x)
-                && let Some(motion) = self.problem.recession(&drift, self.monitor)
-            {
+            if let Some(motion) = self.recession() {
                 return Err(Ending::Recession(motion));
             }
             if sweep % MEASURE == 0 || change == 0.0 {
@@ -123,6 +127,18 @@ impl<'m, 'c, P: Swept> Driver<'m, 'c, P> {
             }
         }
         Ok(change)
+    }
+
+    /// Counts a sweep; if it is time for a look, a recession direction in the drift since the last one.
+    fn recession(&mut self) -> Option<Vec<f64>> {
+        self.sweeps += 1;
+        if self.sweeps < FIRST_LOOK || !self.sweeps.is_power_of_two() {
+            return None;
+        }
+        let parts = self.x.iter().zip(&self.looked_at);
+        let drift: Vec<f64> = parts.map(|(x, before)| x - before).collect();
+        self.looked_at.copy_from_slice(&self.x);
+        self.problem.recession(&drift, self.monitor)
     }
 
     /// Measures the iterate under the problem's own law and keeps it if it is the best.

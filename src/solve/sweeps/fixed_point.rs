@@ -9,8 +9,8 @@
 //! *Diagonal*: the threshold follows the pressure inside each sweep. Often fewer sweeps, no
 //! guarantee.
 
-use super::contact::OnContact;
 use super::driver::{Driver, LARGEST_FACTOR};
+use super::swept::Swept;
 use crate::law::Contact;
 use crate::linalg::vector::{largest_of, norm};
 use crate::monitor::Monitor;
@@ -80,15 +80,16 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
 }
 
 /// The problem with its own law, and where sweeps begin.
-fn begin<'c>(call: &Call<'c>) -> (OnContact<'c>, Vec<f64>) {
+fn begin<'c>(call: &Call<'c>) -> (Swept<'c>, Vec<f64>) {
     let contact = call.contact;
-    (OnContact { own: contact, working: None }, contact.admissible(&call.start_or_zero()))
+    let swept = Swept { contact, working: None, clearances: None };
+    (swept, contact.admissible(&call.start_or_zero()))
 }
 
 /// The last iterate if it is the solution, the best one otherwise.
 fn ended(
     contact: &Contact<'_>,
-    mut driver: Driver<'_, '_, OnContact<'_>>,
+    mut driver: Driver<'_, '_, '_>,
     ending: Ending,
     effort: Effort,
 ) -> Candidate {

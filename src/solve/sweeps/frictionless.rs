@@ -1,15 +1,12 @@
-//! Frictionless contact by sweeps on the clearances, variable by variable.
+//! Frictionless contact by sweeps on the clearances.
 
-use super::Swept;
-use super::blocks::over_all;
 use super::driver::{Driver, LARGEST_FACTOR};
-use crate::law::Contact;
+use super::swept::Swept;
 use crate::linalg::matrix::Matrix;
 use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
 use crate::solve::part::ContactLcp;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
-use crate::solve::rigid::escape;
 
 /// The condensed problem has another scale of forces than the whole one, whose certificate decides: the
 /// target is tightened by this factor until that holds, or no rounding can reach it.
@@ -34,8 +31,8 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let lcp = BoundedLcp { matrix, q: &q, lower: &lower, symmetric: true, remembered: None };
     let x = condensed.clearances(&call.start_or_zero()).into_iter().enumerate();
     let x = x.map(|(i, x)| lcp.admissible(i, x)).collect();
-    let mut driver =
-        Driver::new((Clearances { contact, lcp }, x), settings, LARGEST_FACTOR, monitor);
+    let swept = Swept { contact, working: None, clearances: Some(lcp) };
+    let mut driver = Driver::new((swept, x), settings, LARGEST_FACTOR, monitor);
     let mut target = settings.tolerance;
     loop {
         let ending = driver.solve(target).err().unwrap_or(Ending::Done);
@@ -48,51 +45,5 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             return candidate;
         }
         target *= TIGHTENING;
-    }
-}
-
-/// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
-/// the change in the norm of the diagonal of `M`.
-pub fn sweep(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
-    over_all::<1>(
-        lcp.matrix,
-        w,
-        #[inline(always)]
-        |i, w| {
-            let unit = lcp.matrix.at(i, i);
-            let value = lcp.admissible(i, x[i] - omega * w[0] / unit);
-            let step = value - x[i];
-            x[i] = value;
-            ([step, 0.0, 0.0], unit * step * step)
-        },
-    )
-}
-
-/// The clearances of a contact problem.
-struct Clearances<'p> {
-    contact: &'p Contact<'p>,
-    lcp: BoundedLcp<'p>,
-}
-
-impl Swept for Clearances<'_> {
-    fn sweep(&self, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
-        sweep(&self.lcp, x, w, omega)
-    }
-
-    fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
-        self.lcp.eta(x, w)
-    }
-
-    fn residual(&self, x: &[f64]) -> Vec<f64> {
-        self.lcp.w(x)
-    }
-
-    fn load(&self) -> &[f64] {
-        self.lcp.q
-    }
-
-    /// Without friction the balance of the rigid motions tells, whatever the drift is.
-    fn recession(&self, _drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
-        escape(self.contact, monitor)
     }
 }

@@ -1,0 +1,129 @@
+//! What sweeps improve: a contact problem, pair by pair, in proximal form (`law::proximal`), or its clearances, variable
+//! by variable.
+//!
+//! With given thresholds each step lowers `J(d) = d.K d / 2 - f.d + sum g |delta|` for
+//! `0 < omega < 2`, definite `K` or not. `K d - f` is carried along: an unknown that does not change
+//! costs nothing.
+
+use super::blocks::over_all;
+use super::drift::contact_recession;
+use crate::certificate::eta_of;
+use crate::law::{Contact, PairLaw};
+use crate::linalg::matrix::Matrix;
+use crate::monitor::Monitor;
+use crate::problem::BoundedLcp;
+use crate::solve::rigid::escape;
+
+/// So many sweeps with a factor, fewer if the time is up.
+pub fn sweep_in_time(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
+    (d, force): (&mut [f64], &mut [f64]),
+    (sweeps, omega): (usize, f64),
+    monitor: &mut Monitor<'_>,
+) {
+    for _ in 0..sweeps {
+        if monitor.is_late() {
+            break;
+        }
+        sweep(laws, matrix, (&mut *d, &mut *force), omega);
+    }
+}
+
+/// One sweep over all pairs on displacements and their force `K d - f`. Under Coulomb's law the threshold follows the
+/// pressure within the sweep. Returns the change in the norm of the diagonal of `K`.
+fn sweep(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
+    iterate: (&mut [f64], &mut [f64]),
+    omega: f64,
+) -> f64 {
+    match matrix.size() / laws.len().max(1) {
+        3 => sweep_in::<3>(laws, matrix, iterate, omega),
+        _ => sweep_in::<2>(laws, matrix, iterate, omega),
+    }
+}
+
+fn sweep_in<const DIM: usize>(
+    laws: &[PairLaw],
+    matrix: Matrix<'_>,
+    (d, force): (&mut [f64], &mut [f64]),
+    omega: f64,
+) -> f64 {
+    over_all::<DIM>(
+        matrix,
+        force,
+        #[inline(always)]
+        |i, force| {
+            let coupling = &matrix.column(i)[i + 1..i + DIM];
+            laws[i / DIM].relax(&mut d[i..i + DIM], force, coupling, omega)
+        },
+    )
+}
+
+/// One sweep over all variables of `lcp`, whose matrix is symmetric, on `x` and `w = q + M x`. Returns
+/// the change in the norm of the diagonal of `M`.
+pub fn sweep_lcp(lcp: &BoundedLcp<'_>, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
+    over_all::<1>(
+        lcp.matrix,
+        w,
+        #[inline(always)]
+        |i, w| {
+            let unit = lcp.matrix.at(i, i);
+            let value = lcp.admissible(i, x[i] - omega * w[0] / unit);
+            let step = value - x[i];
+            x[i] = value;
+            ([step, 0.0, 0.0], unit * step * step)
+        },
+    )
+}
+
+/// A contact problem in unknowns `x`, with the residual `w` that is carried along.
+pub struct Swept<'p> {
+    pub contact: &'p Contact<'p>,
+    /// The law that the sweeps obey, if it is not the problem's own.
+    pub working: Option<Contact<'p>>,
+    /// The problem of the clearances, if these are the unknowns.
+    pub clearances: Option<BoundedLcp<'p>>,
+}
+
+impl Swept<'_> {
+    /// One sweep with the over-relaxation factor `omega`. Returns the change in the norm of the
+    /// diagonal.
+    pub fn sweep(&self, x: &mut [f64], w: &mut [f64], omega: f64) -> f64 {
+        if let Some(lcp) = &self.clearances {
+            return sweep_lcp(lcp, x, w, omega);
+        }
+        let laws = self.working.as_ref().unwrap_or(self.contact).pairs();
+        sweep(laws, self.contact.problem().stiffness(), (x, w), omega)
+    }
+
+    /// `eta` under the law that the sweeps obey.
+    pub fn eta_of_sweeps(&self, x: &[f64], w: &[f64]) -> f64 {
+        self.working.as_ref().map_or_else(|| self.eta(x, w), |working| eta_of(working, x, w))
+    }
+
+    /// `eta` under the problem's own law.
+    pub fn eta(&self, x: &[f64], w: &[f64]) -> f64 {
+        self.clearances.map_or_else(|| eta_of(self.contact, x, w), |lcp| lcp.eta(x, w))
+    }
+
+    /// The residual of unknowns.
+    pub fn residual(&self, x: &[f64]) -> Vec<f64> {
+        self.clearances.map_or_else(|| self.contact.problem().force(x), |lcp| lcp.w(x))
+    }
+
+    /// The loads.
+    pub fn load(&self) -> &[f64] {
+        self.clearances.map_or(self.contact.load_with_tension(), |lcp| lcp.q)
+    }
+
+    /// A recession direction of the displacements, found in the change of the unknowns between two looks if there is time.
+    /// Of clearances, which have no friction, the balance of the rigid motions tells, whatever the drift is.
+    pub fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+        match self.clearances {
+            Some(_) => escape(self.contact, monitor),
+            None => contact_recession(self.contact, drift, monitor),
+        }
+    }
+}
