@@ -11,7 +11,7 @@
 use crate::linalg::vector::opposite;
 use std::cell::Cell;
 
-use super::past::{Exchanged, Past};
+use super::past::Past;
 use super::refinement::Task;
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
@@ -134,11 +134,11 @@ fn solve(
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
         match exchange.choose(&iterate, &mut basic, next) {
-            Exchanged::Progress => {}
+            Ok(true) => {}
             // At a degenerate solution rounding may flip the active set forever.
             _ if best.0 <= tolerance && measure(&best.1).0 => break Ending::Done,
-            Exchanged::NoProgress => {}
-            Exchanged::Cycle => break Ending::Cycle,
+            Ok(false) => {}
+            Err(ending) => break ending,
         }
     };
     let ((_, x, w), systems) = (best, iterate.systems);
@@ -285,13 +285,14 @@ impl Exchange {
         Exchange { fewest, patience, most_patience: patience, past: Past::default() }
     }
 
-    /// Changes `basic`, of which the solution of the system selects `next`.
+    /// Changes `basic`, of which the solution of the system selects `next`. True: fewer variables than ever violate their
+    /// condition. `Err`: single exchanges have come to a set of variables again.
     fn choose(
         &mut self,
         iterate: &Iterate<'_>,
         basic: &mut Vec<bool>,
         next: Vec<bool>,
-    ) -> Exchanged {
+    ) -> Result<bool, Ending> {
         let violated = || (0..next.len()).filter(|&i| next[i] != basic[i]);
         let count = violated().count();
         let progress = count < self.fewest;
@@ -304,11 +305,11 @@ impl Exchange {
             let sweeps_help = iterate.lcp.symmetric && progress;
             *basic = if sweeps_help { swept(iterate, basic) } else { next };
         } else if self.past.repeats(basic) {
-            return Exchanged::Cycle;
+            return Err(Ending::Cycle);
         } else if let Some(single) = violated().next_back() {
             basic[single] = next[single];
         }
-        if progress { Exchanged::Progress } else { Exchanged::NoProgress }
+        Ok(progress)
     }
 }
 

@@ -1,15 +1,6 @@
 //! Sets of variables that come back: on a matrix that is no P-matrix single exchanges may cycle, and on one that is
 //! rounding may make them.
 
-/// How an exchange goes on.
-pub enum Exchanged {
-    /// Fewer variables than ever violate their condition.
-    Progress,
-    NoProgress,
-    /// Single exchanges have come to a set of variables again.
-    Cycle,
-}
-
 /// One of the past sets, of which any cycle has a member in the end (Brent 1980): it is replaced after 1, 2, 4, 8 ... more.
 #[derive(Default)]
 pub struct Past {
