@@ -117,7 +117,7 @@ impl Path<'_> {
             let work = self.tableau.pivot_work();
             monitor.step().and_then(|()| monitor.affords(work))?;
             pivots += 1;
-            let leaving = self.tableau.basic(row);
+            let leaving = self.tableau.basic[row];
             self.tableau.pivot(row, entering);
             let falls_to_end = |start: f64| self.tableau.value(z0) <= self.rules.end * start;
             let ended = last.contains(&leaving) || start.is_some_and(falls_to_end);

@@ -109,11 +109,6 @@ impl Tableau {
         }
     }
 
-    /// The basic variable of a row.
-    pub fn basic(&self, row: usize) -> usize {
-        self.basic[row]
-    }
-
     /// Brings the column of the nonbasic variable `entering` up to date.
     pub fn choose(&mut self, entering: usize) {
         let (n, stride, c) = (self.size, self.stride, self.place[entering] - self.size);
