@@ -216,6 +216,7 @@ pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.
+#[derive(Default)]
 struct Natural {
     /// Norm of the natural residual.
     size: NormSum,
@@ -233,12 +234,9 @@ impl Natural {
         let dim = contact.dim();
         let margin = NEGLIGIBLE * norm_inf(contact.problem().relation().load()).max(norm_inf(raw));
         let mut natural = Natural {
-            size: NormSum::default(),
-            doubt: NormSum::default(),
-            sensitivity: 0.0,
-            worst: Violation::default(),
             admissible: Vec::with_capacity(raw.len()),
             states: Vec::with_capacity(contact.pairs().len()),
+            ..Natural::default()
         };
         let mut residual = [0.0; 3];
         for (pair, (law, d, raw)) in contact.each(d, raw).enumerate() {
