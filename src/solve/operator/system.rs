@@ -46,8 +46,9 @@ pub struct System<'a> {
     equations: &'a Equations<'a>,
     /// The lack that a step takes away.
     lack: &'a [f64],
-    /// The pairs on their pieces.
+    /// The pairs on their pieces, of so many components each.
     pairs: Vec<Linearised>,
+    dim: usize,
     /// The first unknown that GMRES works on: the first one of the pairs, or, without equilibrium inside, of all.
     first: usize,
     /// The components that are held on the pieces of the point.
@@ -84,7 +85,17 @@ impl<'a> System<'a> {
             }
             pairs.push(pair);
         }
-        System { equations, lack: &point.lack, pairs, first, held_set }
+        System { equations, lack: &point.lack, pairs, dim, first, held_set }
+    }
+
+    /// Each pair with its first component.
+    fn each(&self) -> impl Iterator<Item = (usize, &Linearised)> {
+        self.pairs.iter().enumerate().map(|(at, pair)| (self.dim * at, pair))
+    }
+
+    /// The unit of a component.
+    fn unit(&self, i: usize) -> f64 {
+        self.equations.root[self.equations.inner + i].powi(2)
     }
 
     /// The step to a residual of the part `forcing`, with at most so many new directions, by the last factor, or,
@@ -140,19 +151,17 @@ impl<'a> System<'a> {
 
     /// The right sides of all unknowns from the first one on, zero of held ones.
     fn right(&self) -> Vec<f64> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
-        let inside = &self.lack[self.first..self.equations.inner];
+        let (inside, lack) = self.lack.split_at(self.equations.inner);
+        let inside = &inside[self.first..];
         let mut all = opposite(inside);
         all.resize(self.lack.len() - self.first, 0.0);
         let right = &mut all[inside.len()..];
-        for (at, pair) in self.pairs.iter().enumerate() {
-            let n = dim * at;
+        for (n, pair) in self.each() {
             if !pair.closed {
                 right[n] = -lack[n];
             }
-            if pair.slips {
-                (1..dim)
-                    .for_each(|c| right[n + c] = pair.slopes.drag[c - 1] * lack[n] - lack[n + c]);
+            for c in (1..self.dim).filter(|_| pair.slips) {
+                right[n + c] = pair.slopes.drag[c - 1] * lack[n] - lack[n + c];
             }
         }
         all
@@ -160,21 +169,18 @@ impl<'a> System<'a> {
 
     /// The left sides for a change of all unknowns.
     fn rows(&self, Moved { z, forces }: &Moved) -> Vec<f64> {
-        let (dim, inner) = (self.equations.contact.dim(), self.equations.inner);
-        let (root, z) = (&self.equations.root[inner..], &z[inner..]);
+        let (dim, inner) = (self.dim, self.equations.inner);
+        let z = &z[inner..];
         let mut all = forces.clone();
         let (forces, rows) = (&forces[inner - self.first..], &mut all[inner - self.first..]);
-        for (at, pair) in self.pairs.iter().enumerate() {
-            let n = dim * at;
+        for (n, pair) in self.each() {
             let turned = ellipse::product(&pair.curvature(), tangential(&z[n..n + dim]));
             for c in 1..dim {
                 rows[n + c] += turned[c - 1] - pair.slopes.drag[c - 1] * forces[n];
             }
         }
-        for (i, row) in rows.iter_mut().enumerate() {
-            if self.held_set.held[i] {
-                *row = root[i].powi(2) * z[i];
-            }
+        for i in (0..rows.len()).filter(|&i| self.held_set.held[i]) {
+            rows[i] = self.unit(i) * z[i];
         }
         all
     }
@@ -206,14 +212,13 @@ impl<'a> System<'a> {
 
     /// Multiplies `s` to the tangential components of slipping pairs.
     fn soften(&self, values: &mut [f64]) {
-        let dim = self.equations.contact.dim();
-        for (at, pair) in self.pairs.iter().enumerate().filter(|(_, pair)| pair.slips) {
-            let n = dim * at;
+        let dim = self.dim;
+        for (n, pair) in self.each().filter(|(_, pair)| pair.slips) {
             let curvature = pair.curvature();
             let stiffness = curvature[0][0] + curvature[1][1];
             if stiffness > 0.0 {
-                let unit = self.equations.root[self.equations.inner + n + 1].powi(2);
-                let taken = (1.0 - (1.0 + stiffness / unit).sqrt().recip()) / stiffness;
+                let softening = (1.0 + stiffness / self.unit(n + 1)).sqrt().recip();
+                let taken = (1.0 - softening) / stiffness;
                 let across = ellipse::product(&curvature, tangential(&values[n..n + dim]));
                 (1..dim).for_each(|c| values[n + c] -= taken * across[c - 1]);
             }
@@ -242,17 +247,14 @@ impl<'a> System<'a> {
     /// The displacements of components that are held in a factor under forces `w`, each pair for itself: on springs
     /// of its units, and on those that it has across its slip. Returns whether there are any.
     fn release(&self, factor: &HeldSet, w: &[f64], released: &mut [f64]) -> bool {
-        let dim = self.equations.contact.dim();
-        let units: Vec<f64> =
-            self.equations.root[self.equations.inner..].iter().map(|root| root * root).collect();
-        for (at, (pair, springs)) in self.pairs.iter().zip(&self.held_set.springs).enumerate() {
-            let n = dim * at;
+        let dim = self.dim;
+        for ((n, pair), springs) in self.each().zip(&self.held_set.springs) {
             for i in (n..n + dim).filter(|&i| factor.held[i]) {
-                released[i] = w[i] / units[i];
+                released[i] = w[i] / self.unit(i);
             }
             if pair.slips && dim > 2 && factor.held[n + 1] {
                 let [[a, b], [_, c]] = *springs;
-                let (a, c) = (a + units[n + 1], c + units[n + 2]);
+                let (a, c) = (a + self.unit(n + 1), c + self.unit(n + 2));
                 let determinant = a * c - b * b;
                 released[n + 1] = (c * w[n + 1] - b * w[n + 2]) / determinant;
                 released[n + 2] = (a * w[n + 2] - b * w[n + 1]) / determinant;
@@ -268,12 +270,9 @@ impl<'a> System<'a> {
         mut w: Vec<f64>,
         monitor: &mut Monitor<'_>,
     ) -> Result<Vec<f64>, Ending> {
-        let held = self.held_set.held.iter().zip(&self.equations.root).enumerate();
-        let held = held.filter(|(_, (held, _))| **held);
-        let mut own = Vec::new();
-        for (i, (_, root)) in held {
-            own.push((i, std::mem::take(&mut w[i]) / root.powi(2)));
-        }
+        let held = (0..w.len()).filter(|&i| self.held_set.held[i]);
+        let own: Vec<(usize, f64)> =
+            held.map(|i| (i, std::mem::take(&mut w[i]) / self.unit(i))).collect();
         let mut z = bodies.solve(&w, monitor)?;
         own.iter().for_each(|(i, displacement)| z[*i] = *displacement);
         Ok(z)
@@ -281,9 +280,8 @@ impl<'a> System<'a> {
 
     /// The change of the coordinates.
     fn coordinates(&self, z: &[f64], product: &[f64]) -> Vec<Vector> {
-        let (dim, lack) = (self.equations.contact.dim(), &self.lack[self.equations.inner..]);
-        let coordinates = |(at, pair): (usize, &Linearised)| {
-            let n = dim * at;
+        let (dim, lack) = (self.dim, &self.lack[self.equations.inner..]);
+        let coordinates = |(n, pair): (usize, &Linearised)| {
             let reaction = |c: usize| -(lack[n + c] + product[n + c]);
             let scaled = pair.scaled(&z[n..n + dim]);
             let turned = ellipse::product(&pair.curvature(), tangential(&z[n..n + dim]));
@@ -297,7 +295,7 @@ impl<'a> System<'a> {
             }
             dy
         };
-        self.pairs.iter().enumerate().map(coordinates).collect()
+        self.each().map(coordinates).collect()
     }
 }
 
