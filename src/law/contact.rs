@@ -150,8 +150,9 @@ impl<'p, R: Relation> Contact<'p, R> {
     }
 
     /// The friction that the pairs can carry under forces.
-    pub fn thresholds(&self, d: &[f64], force: &[f64]) -> Vec<f64> {
-        self.each(d, force).map(|(law, _, force)| law.threshold(force[0])).collect()
+    pub fn thresholds(&self, force: &[f64]) -> Vec<f64> {
+        let normals = force.iter().step_by(self.dim());
+        self.pairs.iter().zip(normals).map(|(law, &normal)| law.threshold(normal)).collect()
     }
 
     /// Gives the pairs thresholds in the place of their own bounds: a Tresca problem.

@@ -24,8 +24,7 @@ pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(),
     let mut point = equations.held_at(start.clone(), bodies)?;
     for _ in 0..ROUNDS {
         let mut contact: Contact<'_, MatrixFree<'_>> = equations.contact.clone();
-        let (d, forces) = (&point.at.x[equations.inner..], &point.residual[equations.inner..]);
-        contact.set_thresholds(&contact.thresholds(d, forces));
+        contact.set_thresholds(&contact.thresholds(&point.residual[equations.inner..]));
         let root = equations.root.clone();
         let given = Equations { contact: &contact, root, tolerance: ROUGH, ..**equations };
         let from = given.held_at(point.at, bodies)?;

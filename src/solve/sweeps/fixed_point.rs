@@ -52,7 +52,7 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
     let mut driver = Driver::new(begin(call), settings, LARGEST_FACTOR, monitor);
     let mut damping = Damping::new(settings.damping);
-    let mut thresholds = contact.thresholds(&driver.x, &driver.w);
+    let mut thresholds = contact.thresholds(&driver.w);
     let mut outer_iterations = 0;
     let ending = loop {
         let target = match driver.measure(settings.tolerance) {
@@ -66,7 +66,7 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
             break ending;
         }
         outer_iterations += 1;
-        let updated = contact.thresholds(&driver.x, &driver.w);
+        let updated = contact.thresholds(&driver.w);
         let change: Vec<f64> =
             updated.iter().zip(&thresholds).map(|(new, old)| new - old).collect();
         let theta = damping.observe(norm(&change));
