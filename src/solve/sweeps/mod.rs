@@ -1,7 +1,6 @@
 //! Projected over-relaxed Gauss–Seidel (Cryer, Christopherson; paper, section 2).
 
 mod blocks;
-mod drift;
 mod driver;
 mod fixed_point;
 mod frictionless;
