@@ -3,15 +3,13 @@
 mod call;
 mod candidate;
 mod certified;
-mod effort;
 mod ending;
 mod memory;
 mod solution;
 
 pub use call::Call;
-pub use candidate::Candidate;
+pub use candidate::{Candidate, Effort};
 pub use certified::certified;
-pub use effort::Effort;
 pub use ending::{CAUSES, Ending, NO_EQUILIBRIUM, wanted};
 pub use memory::{check_limit, memory, memory_flexibility, memory_of_flexibility};
 pub use solution::{
