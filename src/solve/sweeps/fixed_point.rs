@@ -11,7 +11,6 @@
 
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::swept::Swept;
-use crate::law::Contact;
 use crate::linalg::vector::{largest_of, norm};
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
@@ -44,7 +43,7 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let mut driver = Driver::new(begin(call), settings, largest_factor, monitor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     let effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
-    ended(contact, driver, ending, effort)
+    ended(driver, ending, effort)
 }
 
 /// Solves Coulomb's problem as a sequence of Tresca problems.
@@ -76,7 +75,7 @@ pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     };
     let (omega, damping) = (driver.relaxation.omega, damping.theta);
     let effort = Effort { outer_iterations, omega, damping, ..Effort::default() };
-    ended(contact, driver, ending, effort)
+    ended(driver, ending, effort)
 }
 
 /// The problem with its own law, and where sweeps begin.
@@ -87,15 +86,11 @@ fn begin<'c>(call: &Call<'c>) -> (Swept<'c>, Vec<f64>) {
 }
 
 /// The last iterate if it is the solution, the best one otherwise.
-fn ended(
-    contact: &Contact<'_>,
-    mut driver: Driver<'_, '_, '_>,
-    ending: Ending,
-    effort: Effort,
-) -> Candidate {
+fn ended(mut driver: Driver<'_, '_, '_>, ending: Ending, effort: Effort) -> Candidate {
     if ending != Ending::Done
         && let Some(best) = driver.best()
     {
+        let contact = driver.problem.contact;
         return Candidate::of_displacements(contact, best, ending).with_effort(effort);
     }
     Candidate::new(driver.x, driver.w, ending, effort)
