@@ -69,30 +69,25 @@ pub(crate) fn prove_parts(
     let pairs: Vec<EnclosedPiece> = pieces
         .map(|((law, v, force), state)| law.enclosed_piece(*state, v, force))
         .collect::<Option<_>>()?;
-    let mut centre = on_pieces(contact, &pairs, Centre { d: d.to_vec(), low: low.to_vec(), force });
-    let system = System::new(contact, pairs, &centre);
-    let mut solver = system.solver(goes_on)?;
-    system.refine(&mut solver, &mut centre, goes_on);
-    let enclosure = enclose(&system, &solver, &centre, goes_on)?;
-    let of_parts = |part: fn(Ball) -> f64| -> Vec<f64> {
-        let parts = |force: &BallVector| force[..contact.dim()].to_vec();
-        enclosure.force.iter().flat_map(parts).map(part).collect()
-    };
-    let (force, force_radius) = (of_parts(Ball::middle), of_parts(Ball::radius));
-    let Centre { d, low: d_low, .. } = centre;
-    Some(Proof { d, d_low, d_radius: enclosure.d_radius, force, force_radius })
-}
-
-/// The displacements, with those that their pieces hold where they are held.
-fn on_pieces(contact: &Contact<'_>, pairs: &[EnclosedPiece], mut centre: Centre) -> Centre {
-    let dim = contact.dim();
+    let (mut centre, dim) = (Centre { d: d.to_vec(), low: low.to_vec(), force }, contact.dim());
+    // What its piece holds is where that holds it.
     for (at, pair) in pairs.iter().enumerate() {
         for c in (0..dim).filter(|&c| !pair.moves(c)) {
             (centre.d[dim * at + c], centre.low[dim * at + c]) = (pair.held(c), 0.0);
         }
     }
     centre.force = contact.problem().force_of_parts(&centre.d, &centre.low);
-    centre
+    let system = System::new(contact, pairs, &centre);
+    let mut solver = system.solver(goes_on)?;
+    system.refine(&mut solver, &mut centre, goes_on);
+    let enclosure = enclose(&system, &solver, &centre, goes_on)?;
+    let of_parts = |part: fn(Ball) -> f64| -> Vec<f64> {
+        let parts = |force: &BallVector| force[..dim].to_vec();
+        enclosure.force.iter().flat_map(parts).map(part).collect()
+    };
+    let (force, force_radius) = (of_parts(Ball::middle), of_parts(Ball::radius));
+    let Centre { d, low: d_low, .. } = centre;
+    Some(Proof { d, d_low, d_radius: enclosure.d_radius, force, force_radius })
 }
 
 /// Bounds on the errors of an answer next to a solution, relative to the largest displacement, and to the

@@ -114,7 +114,12 @@ impl Condensed {
             let column = condensed.column(bodies, j, monitor)?;
             condensed.matrix[size * j..size * (j + 1)].copy_from_slice(&column);
         }
-        symmetrise(&mut condensed.matrix, size);
+        // Entries that are equal but for rounding become their mean.
+        for (i, j) in (0..size).flat_map(|j| (0..j).map(move |i| (i, j))) {
+            let (above, below) = (i + size * j, j + size * i);
+            let mean = f64::midpoint(condensed.matrix[above], condensed.matrix[below]);
+            (condensed.matrix[above], condensed.matrix[below]) = (mean, mean);
+        }
         Ok(condensed)
     }
 
@@ -180,15 +185,5 @@ impl Condensed {
         let settings = Settings { tolerance: whole.tolerance, ..Settings::default() };
         let found = plan::solve(&Call::new(contact, &settings).from(&start), monitor)?;
         found.status.stop().map_or(Ok(Some(found)), |stop| Err(stop.into()))
-    }
-}
-
-/// Takes the mean of entries that are equal but for rounding.
-fn symmetrise(matrix: &mut [f64], size: usize) {
-    for j in 0..size {
-        for i in 0..j {
-            let mean = f64::midpoint(matrix[i + size * j], matrix[j + size * i]);
-            (matrix[i + size * j], matrix[j + size * i]) = (mean, mean);
-        }
     }
 }

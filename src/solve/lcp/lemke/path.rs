@@ -132,7 +132,8 @@ impl Path<'_> {
             if self.rules.label.is_none() {
                 start.get_or_insert(self.tableau.value(z0));
             }
-            entering = self.complement(leaving);
+            // `z_i` of `w_i`, and `w_i` of `z_i`.
+            entering = if leaving < n { leaving + n } else { leaving - n };
             self.tableau.choose(entering);
             if self.turns.len() < self.rules.turns && self.tableau.rate(z0, entering) > 0.0 {
                 self.turns.push((n..z0).map(|z| self.tableau.value(z)).collect());
@@ -157,12 +158,6 @@ impl Path<'_> {
         }
         self.tableau.choose(entering);
         Some((self.tableau.last_to_rise()?, entering))
-    }
-
-    /// `z_i` of `w_i`, and `w_i` of `z_i`.
-    fn complement(&self, variable: usize) -> usize {
-        let n = self.problem.size();
-        if variable < n { variable + n } else { variable - n }
     }
 
     /// Refines the values, and refactorises where they have drifted, or always.
