@@ -118,48 +118,39 @@ impl Swept<'_> {
         self.clearances.map_or(self.contact.load_with_tension(), |lcp| lcp.q)
     }
 
-    /// A recession direction of the displacements, found in the change of the unknowns between two looks if there is time.
-    /// Of clearances, which have no friction, the balance of the rigid motions tells, whatever the drift is.
+    /// A recession direction of the displacements, from the drift of the unknowns, which is their change between two looks,
+    /// if there is time.
+    ///
+    /// A body that slides away drifts along the slip of its friction. Where that is the slip from which friction takes the
+    /// most work, the drift proves that nothing stops it. Under a collinear rule it is another one, and the balance of the
+    /// rigid motions is asked; of clearances, which have no friction, it tells whatever the drift is.
+    ///
+    /// Components that did not move are taken as fixed. If the matrix is singular on the others, its factor tells which of
+    /// them depend on the rest: the null vector that agrees with the drift on these has none of the drift's elastic part.
     pub fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
-        match self.clearances {
-            Some(_) => escape(self.contact, monitor),
-            None => contact_recession(self.contact, drift, monitor),
+        let contact = self.contact;
+        if self.clearances.is_some() {
+            return escape(contact, monitor);
         }
+        let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
+        let block = FreeBlock::of_problem(contact.problem(), moved, &mut monitor.asking())?;
+        // The part of the drift that the matrix does not resist.
+        let mut motion = vec![0.0; drift.len()];
+        block.dependent().for_each(|i| motion[i] = drift[i]);
+        block.follow(&mut motion);
+        let lifts = lifts(contact, &motion);
+        // A slip together with a lift of each pair, which makes contact forces do no negative work on it. Off a plane it is
+        // rigid if all are lifted by the same.
+        let uniform = vec![norm_inf(&lifts); lifts.len()];
+        [vec![0.0; lifts.len()], lifts, uniform]
+            .into_iter()
+            .map(|lifts| {
+                let mut motion = motion.clone();
+                let pairs = motion.chunks_exact_mut(contact.dim());
+                pairs.zip(lifts).for_each(|(r, by)| lift(r, by));
+                motion
+            })
+            .find(|motion| is_escape_of(contact, motion))
+            .or_else(|| contact.has_collinear_slip().then(|| escape(contact, monitor)).flatten())
     }
-}
-
-/// A recession direction of a contact problem, from the drift of its displacements.
-///
-/// A body that slides away drifts along the slip of its friction. Where that is the slip from which
-/// friction takes the most work, the drift proves that nothing stops it. Under a collinear rule it is
-/// another one, and the balance of the rigid motions is asked.
-///
-/// The drift is the change between two looks. Components that did not move are taken as fixed. If the
-/// matrix is singular on the others, its factor tells which of them depend on the rest: the null vector
-/// that agrees with the drift on these has none of the drift's elastic part.
-fn contact_recession(
-    contact: &Contact<'_>,
-    drift: &[f64],
-    monitor: &mut Monitor<'_>,
-) -> Option<Vec<f64>> {
-    let moved: Vec<usize> = (0..drift.len()).filter(|&i| drift[i] != 0.0).collect();
-    let block = FreeBlock::of_problem(contact.problem(), moved, &mut monitor.asking())?;
-    // The part of the drift that the matrix does not resist.
-    let mut motion = vec![0.0; drift.len()];
-    block.dependent().for_each(|i| motion[i] = drift[i]);
-    block.follow(&mut motion);
-    let lifts = lifts(contact, &motion);
-    // A slip together with a lift of each pair, which makes contact forces do no negative work on it. Off a plane it is
-    // rigid if all are lifted by the same.
-    let uniform = vec![norm_inf(&lifts); lifts.len()];
-    [vec![0.0; lifts.len()], lifts, uniform]
-        .into_iter()
-        .map(|lifts| {
-            let mut motion = motion.clone();
-            let pairs = motion.chunks_exact_mut(contact.dim());
-            pairs.zip(lifts).for_each(|(r, by)| lift(r, by));
-            motion
-        })
-        .find(|motion| is_escape_of(contact, motion))
-        .or_else(|| contact.has_collinear_slip().then(|| escape(contact, monitor)).flatten())
 }
