@@ -26,11 +26,9 @@ impl<'p, R: Relation> Contact<'p, R> {
     /// Works out the laws of a problem.
     pub fn new(problem: &'p ContactProblem<'p, R>) -> Self {
         let pair = |pair: usize| {
-            let mut slip0 = [0.0; 2];
-            for (component, slip0) in slip0[..problem.dim() - 1].iter_mut().enumerate() {
-                *slip0 = problem.reference_slip(pair, component);
-            }
             let (dim, gap) = (problem.dim(), problem.gap(pair));
+            let slip = |c: usize| if c + 1 < dim { problem.reference_slip(pair, c) } else { 0.0 };
+            let slip0 = std::array::from_fn(slip);
             let stiffness = (problem.unit(dim * pair), problem.tangential_stiffness(pair));
             PairLaw::new(dim, gap, slip0, Bound::FRICTIONLESS, stiffness)
                 .with_friction(problem.law().of_pair(pair))
@@ -123,6 +121,12 @@ impl<'p, R: Relation> Contact<'p, R> {
     /// The pieces of the normal map on which displacements and forces are.
     pub fn pieces(&self, d: &[f64], force: &[f64]) -> Vec<Piece> {
         self.each(d, force).map(|(law, d, force)| law.piece(&law.trial(d, force))).collect()
+    }
+
+    /// Gaps with which every pair that has an obstacle touches it.
+    pub fn touching_gaps(&self) -> Vec<f64> {
+        let gap = |law: &PairLaw| if law.has_obstacle() { 0.0 } else { f64::INFINITY };
+        self.pairs.iter().map(gap).collect()
     }
 
     /// The pairs that are tied.

@@ -13,8 +13,7 @@
 //! pairs counts as a part of the loads ([`super::Contact::load_with_tension`]). Of a pair that has an obstacle
 //! `r_n <= 0`: tension takes the work `a |r_n|`.
 
-use super::{Contact, PairLaw, Vector, length};
-use crate::problem::Relation;
+use super::{PairLaw, Vector, length};
 
 /// A motion of a pair, as its law sees it.
 #[derive(Clone, Copy, Debug)]
@@ -31,14 +30,6 @@ pub struct Recession {
 /// Lifts a pair off its obstacle: adds to its motion `r`.
 pub fn lift(r: &mut [f64], by: f64) {
     r[0] -= by;
-}
-
-impl<R: Relation> Contact<'_, R> {
-    /// Gaps with which every pair that has an obstacle touches it.
-    pub fn touching_gaps(&self) -> Vec<f64> {
-        let gap = |law: &PairLaw| if law.has_obstacle() { 0.0 } else { f64::INFINITY };
-        self.pairs().iter().map(gap).collect()
-    }
 }
 
 impl PairLaw {
