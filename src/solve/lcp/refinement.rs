@@ -115,7 +115,6 @@ pub fn proving_ray(task: Task<'_>, y: &[f64], monitor: &mut Monitor<'_>) -> Opti
     let largest = (0..y.len()).max_by(|&i, &j| size(i).total_cmp(&size(j)))?;
     let moving: Vec<usize> = (0..y.len()).filter(|&i| y[i] > 0.0 && i != largest).collect();
     let entry = |i: usize, j: usize| scale[i] * lcp.column(j)[i] * scale[j];
-    let ray = Ray { lcp, scale: &scale, moving: &moving };
     // M of these variables is regular where the ray is their only one.
     monitor.affords(lu_work(moving.len())).ok()?;
     let fill = |c: usize, column: &mut [f64]| {
@@ -123,7 +122,7 @@ pub fn proving_ray(task: Task<'_>, y: &[f64], monitor: &mut Monitor<'_>) -> Opti
     };
     let factor = Factor::new(moving.len(), false, SINGULAR, fill, &mut monitor.asking());
     let by_factor = factor.and_then(|factor| {
-        ray.refined(y, &moving, |mut left| {
+        refined_ray(lcp, (&scale, &moving, &moving), y, |mut left| {
             factor.solve(&mut left);
             left
         })
@@ -143,39 +142,33 @@ pub fn proving_ray(task: Task<'_>, y: &[f64], monitor: &mut Monitor<'_>) -> Opti
     monitor.affords(work).ok()?;
     let column = |&i: &usize| zeros.iter().map(|&j| entry(i, j)).collect();
     let columns = Columns::new(moving.iter().map(column), NEGLIGIBLE);
-    ray.refined(y, &zeros, |mut left| columns.coefficients(columns.take_out(&mut left)))
+    refined_ray(lcp, (&scale, &moving, &zeros), y, |mut left| {
+        columns.coefficients(columns.take_out(&mut left))
+    })
 }
 
-/// A ray of which some entries are to be refined.
-struct Ray<'r> {
-    lcp: &'r Lcp<'r>,
-    scale: &'r [f64],
-    moving: &'r [usize],
-}
-
-impl Ray<'_> {
-    /// `y` with changes by which `solved` takes these entries of `Mᵀ y` to zero, as soon as it is a proof.
-    fn refined(
-        &self,
-        y: &[f64],
-        zeros: &[usize],
-        solved: impl Fn(Vec<f64>) -> Vec<f64>,
-    ) -> Option<Vec<f64>> {
-        let mut y = y.to_vec();
-        for _ in 0..REFINEMENTS {
-            let left = zeros.iter().map(|&j| {
-                let OwnUnit { sum, unit, .. } = self.lcp.resistance(j, &y);
-                -times_power_of_two(sum, unit) * self.scale[j]
-            });
-            let change = solved(left.collect());
-            for (&i, change) in self.moving.iter().zip(change) {
-                // NaN is none.
-                y[i] = (y[i] + self.scale[i] * change).max(0.0);
-            }
-            if self.lcp.is_infeasible_by(&y) {
-                return Some(y);
-            }
+/// `y` with changes of its entries `moving` by which `solved` takes the entries `zeros` of `Mᵀ y` to zero, as soon as it is
+/// a proof.
+fn refined_ray(
+    lcp: &Lcp<'_>,
+    (scale, moving, zeros): (&[f64], &[usize], &[usize]),
+    y: &[f64],
+    solved: impl Fn(Vec<f64>) -> Vec<f64>,
+) -> Option<Vec<f64>> {
+    let mut y = y.to_vec();
+    for _ in 0..REFINEMENTS {
+        let left = zeros.iter().map(|&j| {
+            let OwnUnit { sum, unit, .. } = lcp.resistance(j, &y);
+            -times_power_of_two(sum, unit) * scale[j]
+        });
+        let change = solved(left.collect());
+        for (&i, change) in moving.iter().zip(change) {
+            // NaN is none.
+            y[i] = (y[i] + scale[i] * change).max(0.0);
         }
-        None
+        if lcp.is_infeasible_by(&y) {
+            return Some(y);
+        }
     }
+    None
 }
