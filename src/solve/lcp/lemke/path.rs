@@ -78,16 +78,14 @@ pub fn follow(
     monitor: &mut Monitor<'_>,
 ) -> Result<LemkeRun, Error> {
     let n = problem.size();
-    let nothing =
-        |ending| Ok(LemkeRun { z: vec![0.0; n], ending, turns: Vec::new(), refactorisations: 0 });
     let tableau = match Tableau::new(problem, monitor) {
         Ok(tableau) => tableau,
         Err(Ending::Failed(error)) => return Err(error),
-        Err(ending) => return nothing(ending),
+        Err(ending) => {
+            let (z, turns) = (vec![0.0; n], Vec::new());
+            return Ok(LemkeRun { z, ending, turns, refactorisations: 0 });
+        }
     };
-    if !tableau.is_finite() || problem.covering.contains(&0.0) {
-        return nothing(Ending::Stalled("numbers overflow or underflow in the LCP"));
-    }
     let mut path = Path { problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
     let ending = path.run(monitor).unwrap_or_else(|ending| ending);
     let turns = path.turns.iter().map(|z| problem.unscaled(z.iter().copied())).collect();

@@ -53,7 +53,7 @@ const LARGE: usize = 160;
 pub(super) const MEMORY: f64 = 100.0;
 
 impl Tableau {
-    /// The tableau in which the `w` are basic. `Err`: there is no time or no memory for it.
+    /// The tableau in which the `w` are basic. `Err`: there is no time or no memory for it, or its numbers are none.
     pub fn new(problem: &Scaled<'_>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
         let n = problem.size();
         monitor.affords(MEMORY * (n as f64).powi(2))?;
@@ -73,6 +73,10 @@ impl Tableau {
         }
         entries.extend_from_slice(&problem.covering);
         entries.resize(stride * (n + 1), 0.0);
+        let are_finite = norm_inf(&entries).is_finite() && norm_inf(&problem.q).is_finite();
+        if !are_finite || problem.covering.contains(&0.0) {
+            return Err(Ending::Stalled("numbers overflow or underflow in the LCP"));
+        }
         let delay = if n < LARGE { 1 } else { DELAY };
         Ok(Tableau {
             size: n,
@@ -86,11 +90,6 @@ impl Tableau {
             kept: RankOneUpdates::new(n, n + 1, if delay == 1 { 0 } else { delay }),
             delay,
         })
-    }
-
-    /// True if all entries and values are.
-    pub fn is_finite(&self) -> bool {
-        norm_inf(&self.entries).is_finite() && norm_inf(&self.values).is_finite()
     }
 
     pub(super) fn column(&self, c: usize) -> &[f64] {
