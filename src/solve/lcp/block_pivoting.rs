@@ -18,7 +18,7 @@ use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Monitor, Stop};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, LcpCertificate};
-use crate::settings::Settings;
+use crate::settings::{Method, Settings};
 use crate::solve::pieces::{Before, Equations, REFINEMENTS, SMALL, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::sweeps::sweep_lcp;
@@ -26,16 +26,15 @@ use crate::solve::sweeps::sweep_lcp;
 /// Sweeps between a solution and its active set: they cost a small part of the system that they may save.
 const SWEEPS: u32 = 2;
 
-/// Systems after which a problem of `n` complementary variables is left to another method: single
-/// exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems
-/// known. Twice that and 50 more end no run that converges.
-pub fn enough(n: usize) -> u64 {
-    50 + 2 * n as u64
+/// Systems after which a problem of `n` complementary variables is left to another method, if the host has not chosen this
+/// one: single exchanges may take `2^n`; whole blocks take a few, or at most about `n` on the worst problems known. Twice
+/// that and 50 more end no run that converges.
+fn most_systems(is_chosen: bool, n: usize) -> u64 {
+    if is_chosen { u64::MAX } else { 50 + 2 * n as u64 }
 }
 
-/// Solves frictionless contact from the active set of the start, or from all pairs closed; after `most`
-/// systems it gives up.
-pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
+/// Solves frictionless contact from the active set of the start, or from all pairs closed.
+pub fn contact(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let (contact, settings, problem) = (call.contact, call.settings, call.contact.problem());
     let lower = lower_bounds(contact);
     let lcp = BoundedLcp {
@@ -57,6 +56,7 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
         measured.set(Some(candidate.with_force(force)));
         (holds, w)
     };
+    let most = most_systems(call.is_chosen(), contact.pairs().len());
     let pivoted = solve(&lcp, settings.tolerance, start, most, &measure, monitor);
     let d = opposite(pivoted.d());
     // The basis that was measured last is nearly always the one on which block pivoting ends.
@@ -71,10 +71,10 @@ pub fn contact(call: &Call<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candida
     candidate
 }
 
-/// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds; after `most`
-/// systems it gives up. The candidate has `x` for displacements and `w` for forces.
-pub fn lcp(task: Task<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
-    let Task { lcp, magnitudes, settings: &Settings { tolerance, .. } } = task;
+/// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds. The candidate has `x` for
+/// displacements and `w` for forces.
+pub fn lcp(task: Task<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+    let Task { lcp, magnitudes, settings: &Settings { tolerance, method, .. } } = task;
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
         matrix: lcp.matrix,
@@ -87,13 +87,14 @@ pub fn lcp(task: Task<'_>, most: u64, monitor: &mut Monitor<'_>) -> Candidate {
         let LcpCertificate { eta, w, .. } = lcp.measure((x, &[]), magnitudes);
         (eta <= tolerance, w)
     };
+    let most = most_systems(method == Method::BlockPivoting, lcp.size());
     solve(&bounded, tolerance, None, most, &measure, monitor)
 }
 
 /// Tells if variables are accurate enough, and their `w`.
 type Measure<'m> = dyn Fn(&[f64]) -> (bool, Vec<f64>) + 'm;
 
-/// As [`lcp`], of a bounded one.
+/// As [`lcp`], of a bounded one; after `most` systems it gives up.
 fn solve(
     lcp: &BoundedLcp<'_>,
     tolerance: f64,

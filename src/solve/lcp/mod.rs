@@ -6,6 +6,6 @@ mod past;
 mod refinement;
 mod solve;
 
-pub use block_pivoting::{contact as block_pivoting, enough};
+pub use block_pivoting::contact as block_pivoting;
 pub use lemke::{contact as lemke, ends as lemke_ends};
 pub use solve::{LcpSolution, solve_lcp};

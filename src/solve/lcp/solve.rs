@@ -96,9 +96,7 @@ fn by_pivoting(task: Task<'_>, monitor: &mut Monitor<'_>) -> (LcpSolution, Endin
     } else if n == 0 {
         Ending::Done
     } else {
-        let chosen = task.settings.method == Method::BlockPivoting;
-        let most = if chosen { u64::MAX } else { block_pivoting::enough(n) };
-        let pivoted = block_pivoting::lcp(task, most, monitor);
+        let pivoted = block_pivoting::lcp(task, monitor);
         // Written so that NaN stays NaN.
         z = pivoted.d().iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
         effort = pivoted.effort;

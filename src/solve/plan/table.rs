@@ -214,10 +214,8 @@ const BLOCK_PIVOTING: MethodRow = MethodRow {
         unsymmetric(contact).or_else(with_friction)
     },
     run: |call, monitor| {
-        let pairs = call.contact.pairs().len();
-        let most = if call.is_chosen() { u64::MAX } else { lcp::enough(pairs) };
         let of_one_pair = newton::of_one_pair(call, monitor);
-        Ok(Some(of_one_pair.unwrap_or_else(|| lcp::block_pivoting(call, most, monitor))))
+        Ok(Some(of_one_pair.unwrap_or_else(|| lcp::block_pivoting(call, monitor))))
     },
 };
 
