@@ -1,6 +1,6 @@
 //! The proof, on request, that a solution exists where a method has found one.
 
-use crate::certificate::{Proof, errors, measure, prove_parts};
+use crate::certificate::{errors, measure, prove_parts};
 use crate::monitor::Monitor;
 use crate::solve::result::{Call, Errors, Existence, Solution, Status};
 
@@ -16,23 +16,19 @@ pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'
     let states = &solution.certificate.states;
     let proof = prove_parts(contact, parts, states, &mut monitor.asking());
     let Some(proof) = proof else { return };
-    move_to_middle(call, solution, &proof);
-    let force = &solution.certificate.force;
-    let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));
-    let load = contact.problem().load();
-    let [d, force] = errors(load, (&solution.d, &d_radius), (force, &radius));
-    solution.errors = Some(Errors { d, force });
-    solution.existence = Existence::Proved(Box::new(proof));
-}
-
-/// Replaces the displacements by those of the proof, unless their certificate, which rounds, does not agree.
-fn move_to_middle(call: &Call<'_>, solution: &mut Solution, proof: &Proof) {
+    // The displacements become those of the proof, unless their certificate, which rounds, does not agree.
     let tolerance = call.settings.tolerance;
-    let certificate = measure(call.contact, (&proof.d, &proof.d_low), &[]).with_rounding(tolerance);
+    let certificate = measure(contact, (&proof.d, &proof.d_low), &[]).with_rounding(tolerance);
     let same = certificate.states == solution.certificate.states;
     if certificate.holds(tolerance) && same {
         solution.d.clone_from(&proof.d);
         solution.d_low.clone_from(&proof.d_low);
         solution.certificate = certificate;
     }
+    let force = &solution.certificate.force;
+    let (d_radius, radius) = (proof.radius_about(&solution.d), proof.force_radius_about(force));
+    let load = contact.problem().load();
+    let [d, force] = errors(load, (&solution.d, &d_radius), (force, &radius));
+    solution.errors = Some(Errors { d, force });
+    solution.existence = Existence::Proved(Box::new(proof));
 }
