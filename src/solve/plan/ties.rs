@@ -48,7 +48,16 @@ fn on_others(call: &Call<'_>, solve: Solve, monitor: &mut Monitor<'_>) -> Result
         let start = start.as_deref().filter(|_| !contact.is_at_rest());
         solve(&Call { contact, settings: &settings, start }, monitor)?
     };
-    let solution = others.on_whole(call, found, monitor);
+    let mut solution = others.on_whole(call, found, monitor);
+    // What proves something of the others may prove nothing of the whole.
+    let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
+    if solution.status == Status::NoEquilibrium
+        && !solution.recession.as_ref().is_some_and(is_proof)
+    {
+        let motion = solution.recession.take().unwrap_or_default();
+        (solution.status, solution.message) =
+            Ending::Recession(motion).status(call.settings, &solution.certificate);
+    }
     if let Some(remembered) = whole.remembered() {
         remembered.leave(others.block);
     }
@@ -180,19 +189,6 @@ impl Others {
             second.d_low = self.spread(&second.d_low);
             second.certificate = measure(contact, (&second.d, &second.d_low), &[]);
         });
-        self.judge_proof(call, solution)
-    }
-
-    /// The solution without a proof that is none on the whole.
-    fn judge_proof(&self, call: &Call<'_>, mut solution: Solution) -> Solution {
-        let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
-        if solution.status == Status::NoEquilibrium
-            && !solution.recession.as_ref().is_some_and(is_proof)
-        {
-            let motion = solution.recession.take().unwrap_or_default();
-            (solution.status, solution.message) =
-                Ending::Recession(motion).status(call.settings, &solution.certificate);
-        }
         solution
     }
 }
