@@ -25,9 +25,9 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
     let mut tried = Tried::default();
     for (place, row) in plan(contact).enumerate() {
         let from = match (row.start, &tried.best) {
-            (Start::Best, Some((_, best))) => call.from(best.d()),
+            (Start::Best | Start::Nearest, Some((_, best))) => call.from(best.d()),
             (Start::Best, None) => continue,
-            (Start::Own, _) => *call,
+            (Start::Own | Start::Nearest, _) => *call,
         };
         let Some(candidate) = row.candidate(&from, monitor)? else { continue };
         tried.count(&candidate.effort);

@@ -56,6 +56,8 @@ pub enum Start {
     Own,
     /// At the best displacements that methods before it have left.
     Best,
+    /// At these; at the start of the call if they have left none, as behind a solution of negative orientation.
+    Nearest,
 }
 
 /// Without friction: methods of linear complementarity first, which end where Newton's method and the path give up.
@@ -71,8 +73,8 @@ const IN_PLANE: [&MethodRow; 9] = [
     &NEWTON,
     &BALANCE,
     &PATH_FROM_BEST,
-    &PATH,
     &LEMKE,
+    &PATH,
     &SPRINGS_BY_PATH,
     &NESTED_SWEEPS,
     &DIAGONAL_SWEEPS,
@@ -184,7 +186,7 @@ fn springs(
 }
 
 const PATH_FROM_BEST: MethodRow =
-    MethodRow { name: "path from the best iterate", start: Start::Best, ..PATH };
+    MethodRow { name: "path from the best iterate", start: Start::Nearest, ..PATH };
 
 const PATH: MethodRow = MethodRow {
     method: Method::Path,
