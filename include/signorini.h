@@ -611,14 +611,14 @@ int64_t signorini_solve_memory(int64_t n);
 /** A coefficient of friction is above 10: in percent, or another array? */
 #define SIGNORINI_REMARK_FRICTION_LARGE 2
 /**
- * Without friction: bodies may move without force; a support may be missing. Not sought in full
- * space, nor where pairs depend on each other.
+ * Without friction bodies may move freely: a support may be missing. Not sought in full space, nor
+ * for dependent pairs.
  */
 #define SIGNORINI_REMARK_FREE_MOTION 4
 #define SIGNORINI_REMARK_HELD_BY_ROUNDING 8 /**< Only rounding of K holds a body. */
 /** d rounded to doubles misses the tolerance, d + extra.d_low meets it. */
 #define SIGNORINI_REMARK_NEEDS_LOW_PART 16
-#define SIGNORINI_REMARK_GAPS_PASSED 32     /**< Penetration, large beside gaps. */
+#define SIGNORINI_REMARK_GAPS_PASSED 32 /**< Large penetration beside gaps: forces may be wrong. */
 
 /** Static text for one remark, such as "every gap is negative"; never NULL. */
 const char *signorini_remark_string(int32_t remark);

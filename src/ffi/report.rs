@@ -48,14 +48,14 @@ pub const SIGNORINI_FALLBACK_INACCURATE: i32 = 4;
 pub const SIGNORINI_REMARK_GAPS_NEGATIVE: i32 = 1;
 /// A coefficient of friction is above 10: in percent, or another array?
 pub const SIGNORINI_REMARK_FRICTION_LARGE: i32 = 2;
-/// Without friction: bodies may move without force; a support may be missing. Not sought in full
-/// space, nor where pairs depend on each other.
+/// Without friction bodies may move freely: a support may be missing. Not sought in full space, nor
+/// for dependent pairs.
 pub const SIGNORINI_REMARK_FREE_MOTION: i32 = 4;
 /// Only rounding of K holds a body.
 pub const SIGNORINI_REMARK_HELD_BY_ROUNDING: i32 = 8;
 /// d rounded to doubles misses the tolerance, d + extra.d_low meets it.
 pub const SIGNORINI_REMARK_NEEDS_LOW_PART: i32 = 16;
-/// Penetration, large beside gaps.
+/// Large penetration beside gaps: forces may be wrong.
 pub const SIGNORINI_REMARK_GAPS_PASSED: i32 = 32;
 
 /// How good a result is, and how it was found. Set struct_size; a call writes all other fields.
