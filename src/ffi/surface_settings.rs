@@ -30,9 +30,10 @@ pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// The choice does not change which nodes have pairs.
 pub const SIGNORINI_NORMALS_FACES: i32 = 1;
 
-/// The default. A slave node with less than half of its area over the master gives its row to the
-/// nearest nodes of its faces; if none can take it, it keeps it. Its area is that on all slave faces
-/// around it that look the same way. Uniform pressure stays exact, and others are as exact as
+/// The default. A slave node with less than half of its area over the master, a corner of a face
+/// with mid nodes with less than three tenths, gives its row to the nodes of its faces whose covered
+/// parts are nearest; if none can take it, it keeps it. Its area is that on all slave faces around
+/// it that look the same way. Uniform pressure stays exact, and others are as exact as
 /// elsewhere. Where a master is so small or narrow that few nodes have half, and on one line in
 /// 3D, nodes with a tenth keep their rows, or as many with less as carry moments. For dual mortar:
 /// nodes against surfaces have no cover, and take the default alone.

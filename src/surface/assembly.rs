@@ -92,8 +92,8 @@ pub(super) fn whole_rows(
     for (at, face) in faces().enumerate() {
         watch.goes_on()?;
         let basis = edges.basis(face.kind, face.nodes, true);
-        let (on, integrals) = ((face.nodes, &basis), [face.integrals(); 2]);
-        report.slave_area += side.own_area(at, integrals[0]);
+        let (on, integrals) = ((face.nodes, &basis), ([face.integrals(); 2], Default::default()));
+        report.slave_area += side.own_area(at, integrals.0[0]);
         add_face(&mut rows, on, integrals, std::iter::empty(), Default::default());
     }
     rows.retain(|_, row| row.slaves().all(|(node, _)| meets(node)));

@@ -144,7 +144,7 @@ impl<'a> Search<'a> {
         if parts.is_empty() {
             return Ok((None, is_off_axis));
         }
-        let mut covered = polynomials.project(face.kind, points, &parts);
+        let mut covered = polynomials.project(face, points, &parts);
         // Of master faces that are so small nodes are held in the mean alone.
         let half = 0.5 * face.size();
         covered.holds_many = parts.iter().any(|opposite| master.face(opposite.at).size() < half);
@@ -255,8 +255,8 @@ fn rows(
         if let Some(covered) = covered {
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
-            let integrals = [covered.integrals, face.integrals()];
-            *slave_area += slave.own_area(at, integrals[1]);
+            let integrals = ([covered.integrals, face.integrals()], covered.moments);
+            *slave_area += slave.own_area(at, integrals.0[1]);
             let on = (face.nodes, &basis);
             add_face(&mut rows, on, integrals, covered.weights(), (at_nodes(&face), covered.gaps));
         }

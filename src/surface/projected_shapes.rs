@@ -9,6 +9,7 @@
 use std::ops::Range;
 
 use super::curved::POWERS;
+use super::face::Face;
 use super::overlap::{Meeting, Part};
 use super::shape::{FaceKind, Local, MOST_NODES, Values, padded};
 use crate::linalg::columns::LINE;
@@ -44,6 +45,8 @@ pub(super) struct Opposite<'a> {
 pub(super) struct Covered {
     /// Integrals of the slave's shape functions over the covered part.
     pub(super) integrals: Values,
+    /// Integrals of their products with each coordinate over it.
+    pub(super) moments: [Values; 3],
     /// Number of the slave's nodes.
     slaves: usize,
     masters: Vec<usize>,
@@ -235,14 +238,16 @@ impl Polynomials {
     /// Integrates over the points of a slave face that belong to master faces.
     pub(super) fn project(
         &mut self,
-        slave: FaceKind,
+        face: &Face<'_>,
         points: &[Meeting],
         parts: &[Opposite<'_>],
     ) -> Covered {
+        let slave = face.kind;
         let slaves = slave.nodes();
         let most: usize = parts.iter().map(|opposite| opposite.nodes.len()).sum();
         let mut covered = Covered {
             integrals: [0.0; MOST_NODES],
+            moments: [[0.0; MOST_NODES]; 3],
             slaves,
             gaps: [0.0; MOST_NODES],
             holds_many: false,
@@ -254,8 +259,12 @@ impl Polynomials {
             || {
                 self.span(slave, points);
                 for point in points {
-                    let sums = covered.integrals.iter_mut().zip(slave.values(point.slave));
-                    sums.for_each(|(sum, value)| *sum += point.weight * value);
+                    let x = face.position(point.slave);
+                    for (j, value) in slave.values(point.slave).into_iter().enumerate() {
+                        let part = point.weight * value;
+                        covered.integrals[j] += part;
+                        (0..3).for_each(|axis| covered.moments[axis][j] += part * x[axis]);
+                    }
                 }
                 for opposite in parts {
                     self.add_moments(opposite, points, &mut covered);

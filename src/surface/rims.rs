@@ -23,7 +23,9 @@ use crate::linalg::vector3::Vector3;
 /// with a half that of meshes that are covered wholly, with three tenths twice and with a tenth three times as large.
 const LEAST_COVER: f64 = 0.5;
 
-/// Nodes with less than this are at a rim where more pairs count more than that error.
+/// Nodes with less than this are at a rim where more pairs count more than that error, and always corners of quadratic faces.
+/// These have the area of two or three mid nodes. With such a share it is as large as that of a home, and where the contact ends
+/// beside one, one home's pressure on both moves as much force as the end of the contact has.
 const LEAST_OF_MANY: f64 = 0.3;
 
 /// Where the nodes within [`NEAR`] that have so much could not hold a body, as under a punch of the size of a face, and
@@ -46,12 +48,12 @@ pub(super) const SAME_COVER: f64 = 1e-6;
 /// carries is too little to be seen.
 const NEXT_BUT_ONE: f64 = 0.02;
 
-/// A node shares in a row while the least squared distance is more than this part of its own: up to 5 % further away. The
-/// share falls to zero there, so that rows do not jump where one node becomes nearer than another.
+/// A node shares in a row while the least squared distance of middles is more than this part of its own: up to 5 % further away.
+/// The share falls to zero there, so that rows do not jump where one node becomes nearer than another.
 const AS_NEAR: f64 = 0.9;
 
-/// Folds the rows of nodes with little cover: each is shared out to the nearest nodes of its own faces that keep theirs. One
-/// that finds none keeps its own, and takes in others.
+/// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs whose
+/// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others.
 pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
@@ -85,25 +87,30 @@ pub(super) fn fold(
             homes.insert(node, false);
         }
     }
-    let fold = |(node, around): (usize, BTreeSet<usize>)| {
+    let shares = |(node, around): (usize, BTreeSet<usize>)| {
         let keeps = |home: &usize| homes.contains_key(home) && planes.stays(*home, node);
-        let squared = |home| (slave.position(home) - slave.position(node)).norm_squared();
-        // Two nodes may stand at one place.
+        let squared = |home| (rows[&home].middle() - rows[&node].middle()).norm_squared();
+        // Two rows may have one middle.
         let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
         let mut into: Vec<Weight> = around.into_iter().filter(keeps).map(away).collect();
         into.sort_by(|a, b| a.1.total_cmp(&b.1));
         // Where a rim goes through the point at which slivers meet each would have all masters under them.
         into.truncate(MANY_FACES);
-        let &(nearest, least) = into.first().expect("a folded node has a home");
-        let worth = |(_, away): &Weight| (least / away - AS_NEAR).max(0.0);
-        let sum: f64 = into.iter().map(worth).sum();
+        let least = into.first().expect("a folded node has a home").1;
+        into.iter_mut().for_each(|(_, away)| *away = (least / *away - AS_NEAR).max(0.0));
+        (node, into)
+    };
+    // Middles are those of rows that have taken in none.
+    let gone: Vec<(usize, Vec<Weight>)> = gone.into_iter().map(shares).collect();
+    let fold = |(node, into): (usize, Vec<Weight>)| {
         let row = rows.remove(&node).expect("each node is folded once");
-        for home in into.iter().filter(|home| worth(home) > 0.0) {
-            let taking = rows.get_mut(&home.0).expect("a home keeps its row");
-            taking.take_in(&row, worth(home) / sum);
+        let sum: f64 = into.iter().map(|(_, worth)| worth).sum();
+        for (home, worth) in into.iter().filter(|(_, worth)| *worth > 0.0) {
+            rows.get_mut(home).expect("a home keeps its row").take_in(&row, worth / sum);
         }
         watch.goes_on()?;
-        Ok(Fold { node, into: nearest, distance: least.sqrt() })
+        let distance = (slave.position(into[0].0) - slave.position(node)).norm();
+        Ok(Fold { node, into: into[0].0, distance })
     };
     gone.into_iter().map(fold).collect()
 }
@@ -121,7 +128,6 @@ fn least_covers(
     if rims == Rims::Keep {
         return Ok(at_rims.into_iter().map(|node| (node, SAME_COVER)).collect());
     }
-    let enough = if rims == Rims::Fold { LEAST_COVER } else { LEAST_OF_MANY };
     let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, watch)?;
     // From node to node go the best ones alone: where many faces meet in a node all are near each other.
     let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -141,8 +147,10 @@ fn least_covers(
         // Those with as much keep theirs too.
         let last = holders.last().filter(|_| holds).map_or(0.0, |last| rows[last].cover());
         let has = |least: f64| last >= least - SAME_COVER;
+        let is_small = rims == Rims::Fold && !rows[&node].is_large;
         let least = match [LEAST_COVER, LITTLE_COVER].map(has) {
-            [true, _] => enough,
+            [true, _] if is_small => LEAST_COVER,
+            [true, _] => LEAST_OF_MANY,
             [_, true] => LITTLE_COVER,
             _ => last,
         };

@@ -25,12 +25,22 @@ pub(super) struct Row {
     pub(super) normal: Vector3,
     /// `D_j` times the gap between true shapes; 0 if the sides are their faces.
     pub(super) gap: f64,
+    /// `true` for a corner of a face with mid nodes.
+    pub(super) is_large: bool,
+    /// `D_j` times the middle of its function over the covered part.
+    middle: Vector3,
 }
 
 impl Row {
     /// The covered share of the node.
     pub(super) fn cover(&self) -> f64 {
         self.area / self.whole
+    }
+
+    /// Where the pressure of the row is that of a field which is linear: `F_j = ∫_C p N̂_j = D_j p(middle)`. The node itself may
+    /// stand off the covered part by an element.
+    pub(super) fn middle(&self) -> Vector3 {
+        self.middle / self.area
     }
 
     /// Adds a share of the row of a neighbour.
@@ -63,16 +73,17 @@ impl Row {
 }
 
 /// Adds to the rows of a face's nodes what it has of them. `integrals` are those of its shape functions over the covered
-/// part and over all of it, `masters` the nodes opposite with the coefficients of their shape functions at its nodes, `gaps` the
-/// coefficients of the gap.
+/// part and over all of it, `moments` those of their products with each coordinate over the covered part, `masters` the nodes
+/// opposite with the coefficients of their shape functions at its nodes, `gaps` the coefficients of the gap.
 pub(super) fn add_face(
     rows: &mut BTreeMap<usize, Row>,
     (nodes, basis): (&[usize], &Basis),
-    integrals: [Values; 2],
+    (integrals, moments): ([Values; 2], [Values; 3]),
     masters: impl Iterator<Item = (usize, Values)>,
     (normals, gaps): ([Vector3; MOST_NODES], Values),
 ) {
     let [areas, whole] = integrals.map(|integrals| basis.functions(integrals));
+    let moments = moments.map(|along| basis.functions(along));
     let control = |(node, values)| (node, basis.control_values(values));
     let mut masters: Vec<(usize, Values)> = masters.map(control).collect();
     // Rows are made of runs that ascend, which are merged in little time.
@@ -85,6 +96,7 @@ pub(super) fn add_face(
     for (j, &node) in nodes.iter().enumerate() {
         let scaled = |(node, values): &(usize, Values)| (*node, areas[j] * values[j]);
         let row = rows.entry(node).or_default();
+        row.is_large |= j < basis.kind.corners() && basis.kind.corners() < nodes.len();
         row.area += areas[j];
         row.whole += whole[j];
         // A node that a row does not move is not named by it: it may face nothing.
@@ -92,6 +104,7 @@ pub(super) fn add_face(
         row.add_masters(masters.iter().map(scaled));
         row.normal += areas[j] * normals[j];
         row.gap += areas[j] * gaps[j];
+        row.middle += Vector3::from(moments.map(|along| along[j]));
     }
 }
 

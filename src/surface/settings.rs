@@ -34,8 +34,8 @@ pub enum Normals {
     Faces,
 }
 
-/// The treatment of slave nodes at rims: those that have less than half of their area, on all slave faces around
-/// them that look the same way, over the master. Of dual mortar; nodes against surfaces have no cover.
+/// The treatment of slave nodes at rims: those that have less than half of their area, corners of faces with mid nodes less
+/// than three tenths, on all slave faces around them that look the same way, over the master. Of dual mortar; nodes against surfaces have no cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rims {
     /// Each gives its row to a node of its own faces; if none can take it, it keeps it. Uniform pressure stays exact. Where

@@ -262,29 +262,37 @@ fn cover_is_counted_on_all_faces() {
 
 /// The tip of a triangle over the end of a master: with the height 1 and the base 1 the strip of the height `c` has
 /// `c²/2 - c³/3` of the tip's area, and `(1 - (1-c)³)/6` of that of each of the two nodes at the base, wherever above the base
-/// the tip stands. The two share the tip's row: halves if they are as near, all to the nearer one if the other one is 6 %
-/// further away, in between more as it comes nearer, and nowhere in a jump: over a tenth of the squared distance a share grows
-/// at most ten times as fast as that.
+/// the tip stands. The two share the tip's row: halves if their middles are as near to its own, all to the nearer one if the other
+/// one is 6 % further away, in between more as it comes nearer, and nowhere in a jump: over a tenth of the squared distance a
+/// share grows at most ten times as fast as that. Middles are integrals over lines across the strip, and over the triangle below.
 #[test]
 fn the_nearest_nodes_share_a_row() {
     let c: f64 = 0.4;
     let (tip, base) = (c * c / 2.0 - c.powi(3) / 3.0, (1.0 - (1.0 - c).powi(3)) / 6.0);
+    // Of (1-y)³, of y (1-y)² / 2 and of y² (1-y).
+    let cubes = (1.0 - (1.0 - c).powi(4)) / 4.0;
+    let (up, of_tip) = (base - cubes / 2.0, c.powi(3) / 3.0 - c.powi(4) / 4.0);
+    let own = base + 1.0 / 6.0;
     let mut before: Option<(f64, f64)> = None;
     for step in -80..=80 {
-        let x = 1e-3 * f64::from(step);
-        let slave = [[-0.5, 0.0], [0.5, 0.0], [-0.5, -1.0], [0.5, -1.0], [x, 1.0]];
+        let x = 3e-3 * f64::from(step);
+        let slave = [[-0.5, 0.0], [0.5, 0.0], [0.0, -1.0], [x, 1.0]];
         let master = [[-2.0, -2.0], [2.0, -2.0], [2.0, c], [-2.0, c]];
         let nodes: Vec<Point> =
             [&slave[..], &master].concat().iter().map(|[x, y]| [*x, *y, 0.0]).collect();
-        let faces = [vec![0, 1, 4], vec![0, 2, 3], vec![0, 3, 1]];
-        let found = pair(3, &nodes, [&faces, &[vec![8, 7, 6, 5]]], &with_rims(Rims::Fold)).unwrap();
-        assert_eq!(folds(&found), [(4, usize::from(step > 0))], "{x}");
-        // Areas of the two triangles below: a third of each of one half.
-        let own = [1.0 / 3.0, 1.0 / 6.0].map(|below| below + base);
-        let [left, right] = [0, 1].map(|k| (found.pairs[k].area - own[k]) / tip);
+        let faces = [vec![0, 1, 3], vec![0, 2, 1]];
+        let found = pair(3, &nodes, [&faces, &[vec![7, 6, 5, 4]]], &with_rims(Rims::Fold)).unwrap();
+        // In the middle rounding tells which one is named.
+        let named = if step == 0 { folds(&found)[0].1 } else { usize::from(step > 0) };
+        assert_eq!(folds(&found), [(3, named)], "{x}");
+        let [left, right] = [0, 1].map(|k| (found.pairs[k].area - own) / tip);
         assert!((left + right - 1.0).abs() < 1e-13, "{x}: {left} and {right}");
-        let squared = |end: f64| 1.0 + (x - end) * (x - end);
-        let ratio = squared(0.5) / squared(-0.5);
+        let squared = |side: f64| {
+            let across = (x * up + side * (cubes / 12.0 + 1.0 / 48.0)) / own - x * of_tip / tip;
+            let along = (up - 1.0 / 24.0) / own - of_tip / tip;
+            across * across + along * along
+        };
+        let ratio = squared(1.0) / squared(-1.0);
         if step == 0 {
             assert!((right - 0.5).abs() < 1e-13, "{right}");
         }

@@ -300,6 +300,7 @@ fn parts_have_the_solution_of_the_whole_body() {
 /// plane, and the rows that take them in hold mirror images.
 #[test]
 fn rims_at_planes_are_those_of_the_whole_body() {
+    const WIDE: [f64; 2] = [1.2, 1.25];
     let mut rng = Rng::with_seed(25);
     let kinds = [
         (Cells::Boxes, Order::Linear),
@@ -310,11 +311,11 @@ fn rims_at_planes_are_those_of_the_whole_body() {
     ];
     let mut with_images = 0;
     for (i, kind) in kinds.into_iter().enumerate() {
-        for upper_is_slave in [false, true] {
-            let sizes = if upper_is_slave { [1.0, 1.2] } else { [1.2, 1.0] };
+        for (upper_is_slave, wide) in [false, true].into_iter().flat_map(|b| WIDE.map(|w| (b, w))) {
+            let sizes = if upper_is_slave { [1.0, wide] } else { [wide, 1.0] };
             let held = 1 + (i + usize::from(upper_is_slave)) % 2;
             let part = Bodies::of_sizes(sizes, ([kind; 2], [[3, 2], [2, 3]]), 3, &mut rng);
-            let context = format!("{kind:?}, {held} planes, {upper_is_slave}");
+            let context = format!("{kind:?}, {held} planes, {upper_is_slave}, {wide}");
             with_images += usize::from(!part.found(upper_is_slave, held).rows().vectors.is_empty());
             check(&part, held, upper_is_slave, &context);
         }

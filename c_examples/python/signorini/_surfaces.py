@@ -112,8 +112,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     line or two; pairs are those of the whole.
     normals: "averaged" over all slave faces at a node, or of the "faces" in contact: slave faces over
     the master by dual mortar, the nearest master face by "node_to_surface".
-    rims: slave nodes with less than half of their area over the master "fold" into the nearest
-    nodes of their faces, or "keep" pairs of their own; "fold_little": those with less than three tenths fold, so that
+    rims: slave nodes with less than half of their area over the master, corners of faces with mid nodes with less than
+    three tenths, "fold" into the nearest nodes of their faces, or "keep" pairs of their own; "fold_little": those with less than three tenths fold, so that
     more pairs resolve the rim. By "node_to_surface" the default alone.
     axisymmetric: lines in 2D are meridians of bodies of revolution about the axis x = 0; areas are those
     of whole rings, and so must be stiffness and loads.
