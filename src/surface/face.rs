@@ -26,8 +26,13 @@ pub(super) struct Face<'a> {
 impl Face<'_> {
     /// The point at local coordinates.
     pub(super) fn position(&self, at: Local) -> Vector3 {
-        let values = self.kind.values(at);
-        self.x.iter().zip(values).map(|(x, value)| x * value).sum()
+        self.sum(&self.kind.values(at))
+    }
+
+    /// The position where the shape functions have these values.
+    #[inline]
+    pub(super) fn sum(&self, values: &Values) -> Vector3 {
+        self.x.iter().zip(values).map(|(x, value)| x * *value).sum()
     }
 
     /// Derivatives of the position by the local coordinates; the second of a line is zero.

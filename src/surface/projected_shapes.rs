@@ -259,8 +259,9 @@ impl Polynomials {
             || {
                 self.span(slave, points);
                 for point in points {
-                    let x = face.position(point.slave);
-                    for (j, value) in slave.values(point.slave).into_iter().enumerate() {
+                    let values = slave.values(point.slave);
+                    let x = face.sum(&values);
+                    for (j, value) in values.into_iter().enumerate().take(slaves) {
                         let part = point.weight * value;
                         covered.integrals[j] += part;
                         (0..3).for_each(|axis| covered.moments[axis][j] += part * x[axis]);
