@@ -76,7 +76,7 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let Monitor { full_space, reserve, .. } = *monitor;
-        let ask = &mut |share, memory| monitor.reducing(share, memory);
+        let ask = &mut |share, memory| monitor.shared().reducing(share, memory);
         let control = Control { order, full_space, reserve, case: memory_of_case, ask };
         let reduction = Box::new(SparseReduction::new(matrix, fixed, pairs, control)?);
         Model { dim: pairs.dim, pairs: pairs.count, reduction }.checked()

@@ -2,7 +2,7 @@
 
 use super::{LoadCase, Model};
 use crate::error::{Error, Limit};
-use crate::monitor::{Monitor, ProgressFn, Stop};
+use crate::monitor::{Monitor, ProgressFn, Stop, Watch};
 use crate::problem::Remembered;
 use crate::settings::Settings;
 use crate::solve::{CasePast, Solution, Status};
@@ -88,7 +88,7 @@ impl<'m> Series<'m> {
                 true => block.iter().map(|_| Err(not_begun())).collect(),
                 false => self.model.condensed_loads(block, monitor),
             };
-            is_cancelled |= monitor.stop().is_some();
+            is_cancelled |= monitor.shared().stop().is_some();
             for (case, load) in block.iter().zip(loads) {
                 let k = solved.len();
                 let start = match starts {
@@ -111,7 +111,7 @@ impl<'m> Series<'m> {
                     *before =
                         Some(if forces { &found.certificate.force } else { &found.d }.clone());
                 }
-                is_cancelled |= monitor.stop() == Some(Stop::Cancelled);
+                is_cancelled |= monitor.shared().stop() == Some(Stop::Cancelled);
                 solved.push(solution);
             }
         }
@@ -144,7 +144,7 @@ impl Model {
     fn condensed_loads(
         &self,
         block: &[LoadCase<'_>],
-        monitor: &mut Monitor<'_>,
+        monitor: &dyn Watch,
     ) -> Vec<Result<Option<Vec<f64>>, Error>> {
         if self.is_matrix_free() {
             return block.iter().map(|_| Ok(None)).collect();

@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::error::{Argument, Error};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Watch};
 #[cfg(doc)]
 use crate::problem::ContactProblem;
 use crate::problem::{OF_MATRIX, checked_dim, dense, unknowns};
@@ -33,7 +33,7 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        monitor.reducing(0.0, memory(size))?;
+        monitor.shared().reducing(0.0, memory(size))?;
         let matrix = dense("K", k, size, OF_MATRIX)?;
         let reduction =
             while_it_goes_on(monitor, |go_on| CondensedReduction::new(dim, &matrix, go_on))?;
@@ -66,7 +66,7 @@ impl Model {
         monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        monitor.reducing(0.0, memory(size))?;
+        monitor.shared().reducing(0.0, memory(size))?;
         let first = dense("K_A", first, size, OF_MATRIX)?;
         let arguments = (Argument::SecondMatrix, Argument::SecondLeadingDimension);
         let second = dense("K_B", second, size, arguments)?;
@@ -78,7 +78,7 @@ impl Model {
 
 /// The result of a work that asks whether to go on, unless the monitor ends it.
 fn while_it_goes_on<T>(
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
     work: impl FnOnce(&mut dyn FnMut() -> bool) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let mut ended = None;

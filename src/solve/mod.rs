@@ -1,4 +1,4 @@
-//! Solvers: each a plain function of (call, monitor) that returns a candidate; a call is a problem, settings and a start.
+//! Solvers: each a plain function of a call that returns a candidate; a call is a problem, settings, a start and a monitor.
 //! The certificate alone decides in `result` which candidate is a solution.
 //!
 //! ```text
@@ -25,7 +25,7 @@ mod units;
 use crate::certificate::measure;
 use crate::error::{Argument, Error, Limit};
 use crate::law::Contact;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Watch};
 use crate::problem::{
     ContactProblem, DependentRows, FlexibilityForm, FlexibilityProblem, Relation, Units,
     check_count, check_finite, in_units,
@@ -38,6 +38,7 @@ pub(crate) use operator::{
     solve as solve_matrix_free,
 };
 pub(crate) use plan::memory_of_ties;
+use proximal::Means;
 pub(crate) use proximal::largest_island;
 pub(crate) use result::{CAUSES, NO_EQUILIBRIUM, check_limit, memory_of_flexibility};
 use result::{Call, Solve};
@@ -56,20 +57,19 @@ pub(crate) fn solve_dependent(
     problem: &ContactProblem<'_, DependentRows<'_>>,
     settings: &Settings,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Solution, Error> {
     refuse_search(settings, "pairs that depend on each other do")?;
-    let by = (settings, plan::solve as Solve);
+    let means = Means { settings, solve: plan::solve, monitor };
     let bytes = || memory(problem.unknowns()) + copies_of(problem);
     check(settings, bytes, ("d", problem, start))?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.length.all(start));
-        let solution = proximal::solve_dependent(problem, by, start.as_deref(), monitor)?;
+        let solution = proximal::solve_dependent(problem, means, start.as_deref())?;
         Ok(to_host(solution, units, settings, problem))
     });
-    let solution =
-        solution.unwrap_or_else(|| proximal::solve_dependent(problem, by, start, monitor))?;
-    Ok(finished(solution, settings, problem, monitor))
+    let solution = solution.unwrap_or_else(|| proximal::solve_dependent(problem, means, start))?;
+    Ok(finished(solution, means, problem))
 }
 
 /// Refuses a search for other solutions where there is no stiffness.
@@ -107,7 +107,8 @@ pub fn solve_flexibility(
     monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     refuse_search(settings, "the flexibility form does")?;
-    let (form, by) = (&problem.relation().form, (settings, plan::solve as Solve));
+    let means = Means { settings, solve: plan::solve, monitor };
+    let form = &problem.relation().form;
     let copy = || match form {
         FlexibilityForm::Dense(_) => copies_of(problem),
         FlexibilityForm::Sparse(w) => memory_of_ties(problem.law(), w.largest_part()),
@@ -123,12 +124,12 @@ pub fn solve_flexibility(
     })?;
     let solution = in_units(problem, |units, problem| {
         let start = start.and_then(|start| units.force.all(start));
-        let solution = proximal::solve_flexibility(problem, by, start.as_deref(), monitor)?;
+        let solution = proximal::solve_flexibility(problem, means, start.as_deref())?;
         Ok(to_host(solution, units, settings, problem))
     });
     let solution =
-        solution.unwrap_or_else(|| proximal::solve_flexibility(problem, by, start, monitor))?;
-    Ok(finished(solution, settings, problem, monitor))
+        solution.unwrap_or_else(|| proximal::solve_flexibility(problem, means, start))?;
+    Ok(finished(solution, means, problem))
 }
 
 /// Solves a contact problem from the displacements `start` (zero if `None`).
@@ -161,7 +162,7 @@ fn solve_as_it_stands(
     problem: &ContactProblem<'_>,
     settings: &Settings,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Solution, Error> {
     // Further questions take the memory that would be kept.
     let more = settings.search == Search::Others || settings.proof;
@@ -169,36 +170,36 @@ fn solve_as_it_stands(
     let contact = Contact::new(problem);
     // Where d = 0 is the solution, other starts only approach it.
     let start = start.filter(|_| !contact.is_at_rest());
-    let call = Call { contact: &contact, settings, start };
-    let Some(mut found) = plan::without_ties(&call, solve_with_questions, monitor) else {
-        return solve_with_questions(&call, monitor);
+    let call = Call { contact: &contact, settings, start, monitor };
+    let Some(mut found) = plan::without_ties(&call, solve_with_questions) else {
+        return solve_with_questions(&call);
     };
     if settings.proof
         && let Ok(solution) = &mut found
     {
-        uniqueness::prove(&call, solution, monitor);
+        uniqueness::prove(&call, solution);
     }
     found
 }
 
 /// Solves a problem without ties, and answers what the settings ask of its solution.
-fn solve_with_questions(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+fn solve_with_questions(call: &Call<'_>) -> Result<Solution, Error> {
     let (contact, settings) = (call.contact, call.settings);
     // A result is large: it stays where it is.
-    let mut found = plan::solve(call, monitor);
+    let mut found = plan::solve(call);
     let Ok(solution) = &mut found else { return found };
     if solution.status == Status::NoEquilibrium {
-        let (balance, solve) = (Balance::new(contact, monitor), Some(plan::solve as Solve));
-        rigid::describe(contact, solution, balance, solve, monitor)?;
+        let (balance, solve) = (Balance::new(contact, call.monitor), Some(plan::solve as Solve));
+        rigid::describe(contact, solution, balance, solve, call.monitor)?;
     }
-    uniqueness::by_orientation(contact, solution, monitor);
+    uniqueness::by_orientation(call, solution);
     if settings.proof {
-        uniqueness::prove(call, solution, monitor);
+        uniqueness::prove(call, solution);
     }
-    if settings.search == Search::Others && !monitor.is_late() {
-        uniqueness::examine(call, solution, monitor)?;
+    if settings.search == Search::Others && !call.monitor.is_late() {
+        uniqueness::examine(call, solution)?;
     }
-    plan::add_remarks(call, solution, monitor);
+    plan::add_remarks(call, solution);
     found
 }
 
@@ -219,9 +220,8 @@ fn to_host<R: Relation>(
 /// A result with the remarks on its data and the count of its iterations.
 fn finished<R: Relation>(
     mut solution: Solution,
-    settings: &Settings,
+    Means { settings, monitor, .. }: Means<'_>,
     problem: &ContactProblem<'_, R>,
-    monitor: &Monitor<'_>,
 ) -> Solution {
     if settings.proof {
         solution.existence = Existence::NotProved;

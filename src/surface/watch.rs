@@ -44,6 +44,6 @@ impl<'a, 'm> Watch<'a, 'm> {
             return Ok(());
         }
         self.asked = Some(Instant::now());
-        self.monitor.pairing(self.done as f64 / self.steps as f64)
+        self.monitor.shared().pairing(self.done as f64 / self.steps as f64)
     }
 }

@@ -15,7 +15,7 @@ use super::past::Past;
 use super::refinement::Task;
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{Stop, Watch};
 use crate::problem::symmetric_matrix::is_symmetric;
 use crate::problem::{BoundedLcp, LcpCertificate};
 use crate::settings::{Method, Settings};
@@ -34,7 +34,7 @@ fn most_systems(is_chosen: bool, n: usize) -> u64 {
 }
 
 /// Solves frictionless contact from the active set of the start, or from all pairs closed.
-pub fn contact(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn contact(call: &Call<'_>) -> Candidate {
     let (contact, settings, problem) = (call.contact, call.settings, call.contact.problem());
     let lower = lower_bounds(contact);
     let lcp = BoundedLcp {
@@ -57,7 +57,7 @@ pub fn contact(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
         (holds, w)
     };
     let most = most_systems(call.is_chosen(), contact.pairs().len());
-    let pivoted = solve(&lcp, settings.tolerance, start, most, &measure, monitor);
+    let pivoted = solve(&lcp, settings.tolerance, start, most, &measure, call.monitor);
     let d = opposite(pivoted.d());
     // The basis that was measured last is nearly always the one on which block pivoting ends.
     let measured = measured.take().filter(|candidate: &Candidate| candidate.d() == d);
@@ -73,8 +73,8 @@ pub fn contact(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
 
 /// Solves an LCP whose matrix has a positive diagonal, from all variables at their bounds. The candidate has `x` for
 /// displacements and `w` for forces.
-pub fn lcp(task: Task<'_>, monitor: &mut Monitor<'_>) -> Candidate {
-    let Task { lcp, magnitudes, settings: &Settings { tolerance, method, .. } } = task;
+pub fn lcp(task: Task<'_>) -> Candidate {
+    let Task { lcp, magnitudes, settings: &Settings { tolerance, method, .. }, monitor } = task;
     let zero = vec![0.0; lcp.size()];
     let bounded = BoundedLcp {
         matrix: lcp.matrix,
@@ -101,10 +101,10 @@ fn solve(
     start: Option<Vec<f64>>,
     most: u64,
     measure: &Measure<'_>,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Candidate {
     let equations = Equations::of_lcp(lcp);
-    let mut systems = Systems::of(&equations);
+    let mut systems = Systems::of(&equations, monitor);
     let before = systems.before(start.as_deref());
     // The solution on the active set of the one before is nearly always the one: it is measured at once.
     let mut near = before.is_some().then_some(measure);
@@ -120,7 +120,7 @@ fn solve(
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        if let Err(ending) = iterate.solve(&basic, near.take(), monitor) {
+        if let Err(ending) = iterate.solve(&basic, near.take()) {
             break ending;
         }
         let eta = lcp.eta(&iterate.x, &iterate.w);
@@ -130,7 +130,7 @@ fn solve(
         }
         let next = active_set(lcp, &iterate.x, &iterate.w);
         if next == basic {
-            let refined = iterate.refine(&basic, measure, monitor);
+            let refined = iterate.refine(&basic, measure);
             best = (0.0, std::mem::take(&mut iterate.x), std::mem::take(&mut iterate.w));
             break refined.map_or_else(Ending::Stopped, |()| Ending::Done);
         }
@@ -193,12 +193,7 @@ struct Iterate<'l> {
 impl Iterate<'_> {
     /// Goes to the solution in which the basic variables have no `w`, and the others are at their bounds. What is `near` is
     /// measured in the place of a product with the step.
-    fn solve(
-        &mut self,
-        basic: &[bool],
-        near: Option<&Measure<'_>>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Ending> {
+    fn solve(&mut self, basic: &[bool], near: Option<&Measure<'_>>) -> Result<(), Ending> {
         let lcp = self.lcp;
         self.is_accurate = None;
         let mut step = vec![0.0; self.x.len()];
@@ -210,7 +205,7 @@ impl Iterate<'_> {
         if basic.contains(&true) {
             let pair = |(&basic, root): (&bool, &f64)| Linearised::of_variable(basic, root * root);
             let pairs: Vec<Linearised> = basic.iter().zip(self.root).map(pair).collect();
-            self.systems.go_to(pairs, monitor)?;
+            self.systems.go_to(pairs)?;
             let lack = self.w.iter().zip(basic).map(|(&w, &basic)| if basic { w } else { 0.0 });
             step = self.systems.motion(&lack.collect::<Vec<f64>>())?;
             self.x.iter_mut().zip(&step).for_each(|(x, step)| *x += step);
@@ -236,12 +231,7 @@ impl Iterate<'_> {
 
     /// Brings the solution of the last system to the accuracy that `measure` asks for, if rounding has left less.
     /// `Err`: there is no time for more of it.
-    fn refine(
-        &mut self,
-        basic: &[bool],
-        measure: &Measure<'_>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Stop> {
+    fn refine(&mut self, basic: &[bool], measure: &Measure<'_>) -> Result<(), Stop> {
         let mut best = f64::INFINITY;
         for _ in 0..=REFINEMENTS {
             if self.is_accurate(measure) {
@@ -253,7 +243,7 @@ impl Iterate<'_> {
             }
             best = best.min(eta);
             let before = self.x.clone();
-            match self.solve(basic, None, monitor) {
+            match self.solve(basic, None) {
                 Ok(()) => {}
                 Err(Ending::Stopped(stop)) => return Err(stop),
                 Err(_) => {

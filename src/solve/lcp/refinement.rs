@@ -11,7 +11,7 @@ use crate::linalg::factor::{Factor, lu_work};
 use crate::linalg::least_squares::Columns;
 use crate::linalg::power_of_two::{OwnUnit, times_power_of_two};
 use crate::linalg::tolerances::{NEGLIGIBLE, SINGULAR, SINGULAR_BASIS};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{Lcp, LcpCertificate};
 use crate::settings::Settings;
 use crate::solve::pieces::REFINEMENTS;
@@ -23,6 +23,7 @@ pub struct Task<'t> {
     /// Those of the LCP.
     pub magnitudes: &'t [f64],
     pub settings: &'t Settings,
+    pub monitor: &'t dyn Watch,
 }
 
 /// A candidate `z + low` with its certificate.
@@ -59,8 +60,8 @@ impl Refined {
     }
 
     /// Refines the positive variables so that their `w` vanish, as far as that helps and until the tolerance is met.
-    pub fn refine(&mut self, task: Task<'_>, monitor: &mut Monitor<'_>) {
-        let Task { lcp, magnitudes, settings: &Settings { tolerance, .. } } = task;
+    pub fn refine(&mut self, task: Task<'_>) {
+        let Task { lcp, magnitudes, settings: &Settings { tolerance, .. }, monitor } = task;
         let basic: Vec<usize> = (0..self.z.len()).filter(|&i| self.z[i] > 0.0).collect();
         let is_hopeless = !self.certificate.eta.is_finite() || basic.is_empty();
         if is_hopeless || self.holds(tolerance) || monitor.affords(lu_work(basic.len())).is_err() {
@@ -107,8 +108,8 @@ pub fn scales(magnitudes: &[f64]) -> Vec<f64> {
 
 /// A ray refined until it proves that there is no solution: entries of `Mᵀ y` that are zero but for the rounding of the
 /// ray's basis become so to the last digit. `None`: it proves nothing, or there is no time for it.
-pub fn proving_ray(task: Task<'_>, y: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
-    let Task { lcp, magnitudes, .. } = task;
+pub fn proving_ray(task: Task<'_>, y: &[f64]) -> Option<Vec<f64>> {
+    let Task { lcp, magnitudes, monitor, .. } = task;
     let scale = scales(magnitudes);
     // The largest one gives the length.
     let size = |i: usize| y[i] / scale[i];

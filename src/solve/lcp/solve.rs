@@ -55,9 +55,9 @@ pub fn solve_lcp(
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
     check_limit(memory(lcp.size()), settings)?;
-    let task = Task { lcp, magnitudes: &lcp.magnitudes(), settings };
+    let task = Task { lcp, magnitudes: &lcp.magnitudes(), settings, monitor };
     let pivoted = match settings.method {
-        Method::Auto | Method::BlockPivoting => Some(by_pivoting(task, monitor)),
+        Method::Auto | Method::BlockPivoting => Some(by_pivoting(task)),
         Method::Lemke => None,
         _ => {
             let message =
@@ -74,7 +74,7 @@ pub fn solve_lcp(
         Some(pivoted) if done(&pivoted) => return Ok(pivoted.0),
         other => other,
     };
-    let mut solution = by_lemke(task, monitor)?;
+    let mut solution = by_lemke(task)?;
     if let Some((before, ending)) = pivoted {
         let decided = matches!(solution.status, Status::Solved | Status::NoEquilibrium);
         if !decided && before.eta < solution.eta {
@@ -88,7 +88,7 @@ pub fn solve_lcp(
 }
 
 /// Block pivoting, and how it ended.
-fn by_pivoting(task: Task<'_>, monitor: &mut Monitor<'_>) -> (LcpSolution, Ending) {
+fn by_pivoting(task: Task<'_>) -> (LcpSolution, Ending) {
     let n = task.lcp.size();
     let (mut z, mut effort) = (vec![0.0; n], Effort::default());
     let ending = if (0..n).any(|i| !(task.lcp.column(i)[i] > 0.0)) {
@@ -96,19 +96,19 @@ fn by_pivoting(task: Task<'_>, monitor: &mut Monitor<'_>) -> (LcpSolution, Endin
     } else if n == 0 {
         Ending::Done
     } else {
-        let pivoted = block_pivoting::lcp(task, monitor);
+        let pivoted = block_pivoting::lcp(task);
         // Written so that NaN stays NaN.
         z = pivoted.d().iter().map(|&x| if x < 0.0 { 0.0 } else { x }).collect();
         effort = pivoted.effort;
         pivoted.ending
     };
-    let found = at_end(task, z, &ending, monitor);
-    (certified(task, Method::BlockPivoting, found, (&ending, effort), monitor), ending)
+    let found = at_end(task, z, &ending);
+    (certified(task, Method::BlockPivoting, found, (&ending, effort)), ending)
 }
 
 /// Lemke's method; a path whose end has lost accuracy is followed once more.
-fn by_lemke(task: Task<'_>, monitor: &mut Monitor<'_>) -> Result<LcpSolution, Error> {
-    let Task { lcp, magnitudes, settings } = task;
+fn by_lemke(task: Task<'_>) -> Result<LcpSolution, Error> {
+    let Task { lcp, magnitudes, settings, monitor } = task;
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale = scales(magnitudes);
     let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
@@ -117,9 +117,9 @@ fn by_lemke(task: Task<'_>, monitor: &mut Monitor<'_>) -> Result<LcpSolution, Er
     let scaled = Scaled::new(fill, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
     let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
-    let mut end_of_path = |thorough| {
+    let end_of_path = |thorough| {
         let mut run = lemke::follow(&scaled, rules(thorough), monitor)?;
-        let found = at_end(task, std::mem::take(&mut run.z), &run.ending, monitor);
+        let found = at_end(task, std::mem::take(&mut run.z), &run.ending);
         Ok::<_, Error>((run, found))
     };
     let (mut run, mut found) = end_of_path(false)?;
@@ -132,14 +132,14 @@ fn by_lemke(task: Task<'_>, monitor: &mut Monitor<'_>) -> Result<LcpSolution, Er
         (run, found) = end_of_path(true)?;
     }
     let effort = Effort { refactorisations: run.refactorisations, ..Effort::default() };
-    Ok(certified(task, Method::Lemke, found, (&run.ending, effort), monitor))
+    Ok(certified(task, Method::Lemke, found, (&run.ending, effort)))
 }
 
 /// The candidate with which a method has ended, refined if the method is done.
-fn at_end(task: Task<'_>, z: Vec<f64>, ending: &Ending, monitor: &mut Monitor<'_>) -> Refined {
+fn at_end(task: Task<'_>, z: Vec<f64>, ending: &Ending) -> Refined {
     let mut found = Refined::of(task, z);
     if *ending == Ending::Done {
-        found.refine(task, monitor);
+        found.refine(task);
     }
     found
 }
@@ -150,7 +150,6 @@ fn certified(
     method: Method,
     mut found: Refined,
     (ending, effort): (&Ending, Effort),
-    monitor: &mut Monitor<'_>,
 ) -> LcpSolution {
     let (n, settings) = (task.lcp.size(), task.settings);
     let mut w: Vec<f64> = (0..n).map(|i| found.slack(i)).collect();
@@ -163,7 +162,7 @@ fn certified(
     let eta = found.certificate.eta;
     let holds = overflow.is_none() && found.holds(settings.tolerance);
     let infeasible_by = match ending {
-        Ending::Recession(ray) if !holds => proof(task, ray, monitor),
+        Ending::Recession(ray) if !holds => proof(task, ray),
         _ => None,
     };
     let wanted = || format!("eta is {eta:.1e}, wanted {:.1e}", settings.tolerance);
@@ -195,7 +194,7 @@ fn certified(
         rounding: found.certificate.rounding,
         method,
         fallback: None,
-        iterations: monitor.iterations(),
+        iterations: task.monitor.iterations(),
         factorisations: effort.factorisations,
         refactorisations: effort.refactorisations,
     }
@@ -205,13 +204,13 @@ fn certified(
 const ROUNDED: &str = "z rounded to doubles hides q";
 
 /// The vector that proves by a ray that there is no solution, its largest entry 1.
-fn proof(task: Task<'_>, ray: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+fn proof(task: Task<'_>, ray: &[f64]) -> Option<Vec<f64>> {
     let few = without_digits(ray, task.magnitudes);
     let mut proof = if task.lcp.is_infeasible_by(&few) {
         few
     } else {
         // Digits that rounding has left are none of a proof; small entries may be.
-        proving_ray(task, &few, monitor).or_else(|| proving_ray(task, ray, monitor))?
+        proving_ray(task, &few).or_else(|| proving_ray(task, ray))?
     };
     normalise(&mut proof);
     Some(proof)

@@ -11,11 +11,10 @@ use std::sync::Arc;
 use super::ended::Ended;
 use super::iteration;
 use crate::linalg::elimination::Elimination;
-use crate::monitor::Monitor;
 use crate::problem::Remembered;
 use crate::solve::part::ReducedProblem;
 use crate::solve::pieces::Equations;
-use crate::solve::result::Ending;
+use crate::solve::result::{Call, Ending};
 
 /// The elimination of open pairs that a problem leaves for the next one with its matrix.
 pub struct Kept {
@@ -26,26 +25,21 @@ pub struct Kept {
 
 /// Where steps with the factors of the problem before lead from its solution, whose displacements are `start`; `Done` if
 /// that is a solution. `None`: they lead nowhere. Of what is remembered an elimination stays.
-pub fn again(
-    whole: &Equations<'_>,
-    start: &[f64],
-    tolerance: f64,
-    monitor: &mut Monitor<'_>,
-) -> Option<Ended> {
+pub fn again(call: &Call<'_>, whole: &Equations<'_>, start: &[f64]) -> Option<Ended> {
     let remembered = whole.remembered?;
     if !remembered.is::<Kept>() {
-        return iteration::solve_again(whole, start, tolerance, monitor);
+        return iteration::solve_again(call, whole, start);
     }
     let Kept { elimination, of_candidates } = remembered.take()?;
     let reduced = ReducedProblem::by_elimination(whole, &elimination)?;
     let part = Equations { remembered: Some(&of_candidates), ..reduced.equations() };
-    let found = again(&part, &reduced.restrict(start), tolerance, monitor);
+    let found = again(call, &part, &reduced.restrict(start));
     drop(part);
     let found = found.map(|found| {
         let (d, force, y) = reduced.whole_from(&found.d, &found.y);
         let is_solved = found.ending == Ending::Done
             && reduced.closing(&y).is_empty()
-            && whole.eta(&d, &force) <= tolerance;
+            && whole.eta(&d, &force) <= call.settings.tolerance;
         let ending = if is_solved { Ending::Done } else { iteration::FAR };
         Ended { d, force, y, ending, ..found }
     });

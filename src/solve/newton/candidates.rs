@@ -23,7 +23,7 @@ use super::ended::Ended;
 use super::iteration::OPEN;
 use super::start::swept;
 use crate::law::{Piece, Vector};
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Stop;
 use crate::problem::Remembered;
 use crate::solve::part::{ReducedProblem, closed_with_margin, many_are_open};
 use crate::solve::pieces::{Equations, Point};
@@ -37,34 +37,29 @@ pub(super) const OVERFLOW: Ending = Ending::Stalled("the forces are beyond the l
 const TOO_MANY: f64 = 1.6;
 
 /// A solver of equations from given coordinates to a tolerance. It may end with [`OPEN`] where it is told so.
-pub type Core<'c> = dyn FnMut(&Equations<'_>, (Vec<Vector>, bool), &mut Monitor<'_>) -> Ended + 'c;
+pub type Core<'c> = dyn FnMut(&Equations<'_>, (Vec<Vector>, bool)) -> Ended + 'c;
 
 /// Solves a problem: sweeps, then `core` on the candidates.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Candidate {
-    let Call { contact, settings, start } = *call;
+pub fn solve(call: &Call<'_>, core: &mut Core<'_>) -> Candidate {
+    let contact = call.contact;
     let whole = Equations::of(contact);
     let remembered = contact.problem().remembered();
     // Nothing is left of a problem that is not solved.
     let before = remembered.and_then(Remembered::take::<Kept>);
-    let mut search = Search {
-        tolerance: settings.tolerance,
-        core,
-        is_series: remembered.is_some(),
-        left: PATIENCE,
-    };
-    let begun = before.and_then(|before| begun(&whole, &before, start, monitor));
+    let mut search = Search { call, core, is_series: remembered.is_some(), left: PATIENCE };
+    let begun = before.and_then(|before| begun(call, &whole, &before));
     let mut spent = 0;
     let mut found = begun.and_then(|(reduced, y)| {
-        let found = search.on(&whole, Some(reduced), y, monitor);
+        let found = search.on(&whole, Some(reduced), y);
         spent = found.systems;
         matches!(found.ending, Ending::Done | Ending::Stopped(_)).then_some(found)
     });
     if found.is_none() {
-        let Some(y) = swept(&whole, start, monitor) else {
+        let Some(y) = swept(&whole, call.start, call.monitor) else {
             return Candidate::without_displacements(contact, OVERFLOW);
         };
         search.left = PATIENCE;
-        let alone = search.on(&whole, None, y, monitor);
+        let alone = search.on(&whole, None, y);
         found = Some(Ended { systems: spent + alone.systems, ..alone });
     }
     found.expect("the problem alone has ended").into_candidate()
@@ -73,15 +68,14 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
 /// The problem reduced as an earlier one, and coordinates of which those of the candidates come from sweeps on them;
 /// `None` if the candidates do not fit.
 fn begun<'w>(
+    call: &Call<'_>,
     whole: &'w Equations<'w>,
     before: &Kept,
-    start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
 ) -> Option<(ReducedProblem<'w>, Vec<Vector>)> {
     let reduced = ReducedProblem::by_elimination(whole, &before.elimination)?;
-    let start: Option<Vec<f64>> = start.map(|start| reduced.restrict(start));
+    let start: Option<Vec<f64>> = call.start.map(|start| reduced.restrict(start));
     let equations = reduced.equations();
-    let own = swept(&equations, start.as_deref(), monitor)?;
+    let own = swept(&equations, start.as_deref(), call.monitor)?;
     let needed = closed_with_margin(&equations.laws, &own).len();
     let fits = own.len() as f64 <= TOO_MANY * needed as f64;
     drop(equations);
@@ -92,7 +86,7 @@ fn begun<'w>(
 
 /// A search on candidates.
 struct Search<'s, 'c> {
-    tolerance: f64,
+    call: &'s Call<'s>,
     core: &'s mut Core<'c>,
     /// True if the candidates of other problems stay among those of this one.
     is_series: bool,
@@ -108,19 +102,18 @@ impl Search<'_, '_> {
         whole: &'w Equations<'w>,
         mut reduced: Option<ReducedProblem<'w>>,
         mut y: Vec<Vector>,
-        monitor: &mut Monitor<'_>,
     ) -> Ended {
         let mut kept = Vec::new();
         let (mut systems, mut orientation) = (0, 0);
         loop {
             let on_part = match reduced.take() {
                 Some(reduced) => Ok(Some(reduced)),
-                None => self.widened(whole, &mut kept, &y, monitor),
+                None => self.widened(whole, &mut kept, &y),
             };
             let part = match on_part {
                 Ok(Some(part)) => part,
                 Ok(None) => {
-                    let found = (self.core)(whole, (y, self.left > 0), monitor);
+                    let found = (self.core)(whole, (y, self.left > 0));
                     systems += found.systems;
                     if found.ending != OPEN {
                         return Ended { systems, ..found };
@@ -138,8 +131,7 @@ impl Search<'_, '_> {
             let of_candidates = Remembered::default();
             let remembered = whole.remembered.map(|_| &of_candidates);
             let equations = Equations { remembered, ..part.equations() };
-            let found =
-                self.on_part(&equations, part.kept().map(|pair| y[pair]).collect(), monitor);
+            let found = self.on_part(&equations, part.kept().map(|pair| y[pair]).collect());
             drop(equations);
             systems += found.systems;
             if found.orientation != 0 {
@@ -148,7 +140,7 @@ impl Search<'_, '_> {
             let (d, force);
             (d, force, y) = part.whole_from(&found.d, &found.y);
             let done = found.ending == Ending::Done;
-            let solved = done && whole.eta(&d, &force) <= self.tolerance;
+            let solved = done && whole.eta(&d, &force) <= self.call.settings.tolerance;
             let is_last = !done || solved || part.closing(&y).is_empty();
             let ending = found.ending;
             if is_last {
@@ -165,17 +157,12 @@ impl Search<'_, '_> {
 
     /// Solves the equations of candidates. Those of a series may be too many for one problem, and so may those that sweeps
     /// leave closed in the plane.
-    fn on_part(
-        &mut self,
-        equations: &Equations<'_>,
-        y: Vec<Vector>,
-        monitor: &mut Monitor<'_>,
-    ) -> Ended {
+    fn on_part(&mut self, equations: &Equations<'_>, y: Vec<Vector>) -> Ended {
         let is_series = std::mem::take(&mut self.is_series);
         if equations.dim > 2 && !is_series {
-            return (self.core)(equations, (y, false), monitor);
+            return (self.core)(equations, (y, false));
         }
-        let found = self.on(equations, None, y, monitor);
+        let found = self.on(equations, None, y);
         self.is_series = is_series;
         found
     }
@@ -187,7 +174,6 @@ impl Search<'_, '_> {
         whole: &'w Equations<'w>,
         kept: &mut Vec<usize>,
         y: &[Vector],
-        monitor: &mut Monitor<'_>,
     ) -> Result<Option<ReducedProblem<'w>>, Stop> {
         // In the plane one factor serves many systems: less is saved.
         if whole.dim == 2 && !many_are_open(&whole.pieces(y)) {
@@ -202,6 +188,6 @@ impl Search<'_, '_> {
         }
         let mut held = vec![Some(Piece::OPEN); y.len()];
         kept.iter().for_each(|&pair| held[pair] = None);
-        ReducedProblem::new(whole, &held, monitor)
+        ReducedProblem::new(whole, &held, self.call.monitor)
     }
 }

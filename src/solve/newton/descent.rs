@@ -4,7 +4,7 @@
 //! The iterates obey the law exactly; what falls is the lack of equilibrium. There is no guarantee: from `mu` of about
 //! 1 on, on matrices that are no stiffness of a mesh, the method may stop at a kink of the lack's length.
 
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::result::Ending;
 
 /// Part of the fall of the lack that a full step promises which a shortened one must keep (Armijo).
@@ -43,11 +43,7 @@ pub trait NormalMap {
     ///
     /// # Errors
     /// Why there is none.
-    fn step(
-        &mut self,
-        point: &Self::Point,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Self::Step, Ending>;
+    fn step(&mut self, point: &Self::Point) -> Result<Self::Step, Ending>;
 
     /// The point after a part of a step.
     ///
@@ -73,7 +69,7 @@ pub trait NormalMap {
     }
 
     /// The point from which the next system is made, after this part of a step has led to `point`.
-    fn after(&mut self, point: Self::Point, _part: f64, _monitor: &mut Monitor<'_>) -> Self::Point {
+    fn after(&mut self, point: Self::Point, _part: f64) -> Self::Point {
         point
     }
 }
@@ -114,7 +110,7 @@ pub fn solve<M: NormalMap>(
     map: &mut M,
     mut point: M::Point,
     goal: Goal,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> NewtonOutcome<M::Point> {
     let (mut systems, mut shortest, mut last) = (0, 0, f64::INFINITY);
     // The point of the least lack, if it is not the last one.
@@ -133,7 +129,7 @@ pub fn solve<M: NormalMap>(
         if let Err(stop) = monitor.step() {
             break Ending::Stopped(stop);
         }
-        let step = map.step(&point, monitor);
+        let step = map.step(&point);
         systems += u64::from(!matches!(step, Err(Ending::Stopped(_))));
         let step = match step {
             Ok(step) => step,
@@ -151,7 +147,7 @@ pub fn solve<M: NormalMap>(
             break Ending::Stalled("the forces are beyond the largest number");
         }
         shortest = if part <= SHORTEST { shortest + 1 } else { 0 };
-        let before = std::mem::replace(&mut point, map.after(next, part, monitor));
+        let before = std::mem::replace(&mut point, map.after(next, part));
         let now = map.merit(&point);
         best = best.or(Some(before)).filter(|best| map.merit(best) < now);
     };

@@ -10,7 +10,6 @@ use super::descent::{self, Goal, NormalMap, PATIENCE, ROUNDING_OF_ETA};
 use super::ended::Ended;
 use super::start::swept;
 use crate::law::{PairLaw, Piece, Vector};
-use crate::monitor::Monitor;
 use crate::solve::part::many_are_open;
 use crate::solve::pieces::{Equations, Point, Step, Systems};
 use crate::solve::result::{Call, Candidate, Effort, Ending};
@@ -50,36 +49,30 @@ pub const OPEN: Ending = Ending::Stalled("many pairs are open");
 
 /// Solves the equations from the coordinates `y`; until most pairs are open if it `leaves_open` pairs to an elimination.
 pub fn solve(
+    call: &Call<'_>,
     equations: &Equations<'_>,
     y: Vec<Vector>,
-    (tolerance, leaves_open): (f64, bool),
-    monitor: &mut Monitor<'_>,
+    leaves_open: bool,
 ) -> Ended {
-    let least_systems = 1;
-    let point = Point::new(equations, y);
-    let dense = Dense { leaves_open, ..Dense::of(equations) };
-    dense.descend(point, (tolerance, least_systems), monitor)
+    let dense = Dense { leaves_open, ..Dense::of(call, equations) };
+    dense.descend(Point::new(equations, y), 1)
 }
 
 /// Solves a whole problem in the plane, which has these equations, near its start: from the solution on the pieces of the problem before with
 /// the same matrix, if they are its solution, and from sweeps. The certificate, which reads `K` anyway, tells if they are.
 /// `None`: the sweeps lead beyond the largest number.
-pub fn solve_in_plane(
-    call: &Call<'_>,
-    equations: &Equations<'_>,
-    monitor: &mut Monitor<'_>,
-) -> Option<Candidate> {
+pub fn solve_in_plane(call: &Call<'_>, equations: &Equations<'_>) -> Option<Candidate> {
     let (contact, tolerance) = (call.contact, call.settings.tolerance);
-    let mut dense = Dense::of(equations);
+    let mut dense = Dense::of(call, equations);
     let before = dense.systems.before(call.start).map(|left| Point::of_before(equations, left));
-    let again = before.and_then(|point| dense.again(point, monitor).ok());
+    let again = before.and_then(|point| dense.again(point).ok());
     if let Some(candidate) = &again {
         let certificate = candidate.certificate(contact);
-        monitor.measured(certificate.eta);
+        call.monitor.measured(certificate.eta);
         let y = equations.coordinates(candidate.d(), &certificate.raw);
         if equations.pieces(&y) == dense.pieces {
             if !(certificate.eta <= descent::AIM * tolerance) {
-                let ended = dense.descend(Point::new(equations, y), (tolerance, 0), monitor);
+                let ended = dense.descend(Point::new(equations, y), 0);
                 return Some(ended.into_candidate());
             }
             let force = certificate.raw.clone();
@@ -89,51 +82,47 @@ pub fn solve_in_plane(
         }
     }
     let start = again.as_ref().map(Candidate::d).or(call.start);
-    let y = swept(equations, start, monitor)?;
-    Some(dense.descend(Point::new(equations, y), (tolerance, 1), monitor).into_candidate())
+    let y = swept(equations, start, call.monitor)?;
+    Some(dense.descend(Point::new(equations, y), 1).into_candidate())
 }
 
 /// Solves the equations in space by steps with the system that the problem before with the same matrix has left, whose
 /// solution has the displacements `start`. `None`: nothing is left of it, or the first step does not come near.
-pub fn solve_again(
-    equations: &Equations<'_>,
-    start: &[f64],
-    tolerance: f64,
-    monitor: &mut Monitor<'_>,
-) -> Option<Ended> {
-    let mut dense = Dense::of(equations);
+pub fn solve_again(call: &Call<'_>, equations: &Equations<'_>, start: &[f64]) -> Option<Ended> {
+    let mut dense = Dense::of(call, equations);
     let before = Point::of_before(equations, dense.systems.before(Some(start))?);
-    monitor.step().ok()?;
-    let (merit, enough) = (before.merit, descent::AIM * tolerance);
+    call.monitor.step().ok()?;
+    let (merit, enough) = (before.merit, descent::AIM * call.settings.tolerance);
     (dense.pieces, dense.y) = (before.pieces.clone(), before.y.clone());
     dense.orientation = dense.systems.orientation();
-    let point = dense.chords(before, enough, monitor);
+    let point = dense.chords(before, enough);
     match (point.merit < merit, point.pieces == dense.pieces) {
         (true, true) => {}
         _ if dense.eta(&point) <= enough => {}
         (true, false) => return Some(Ended::at(point, FAR)),
         (false, _) => return None,
     }
-    Some(dense.descend(point, (tolerance, 0), monitor))
+    Some(dense.descend(point, 0))
 }
 
 /// Solves a problem in the plane from the solution on given pieces, whatever the law says to it; the start is returned
 /// unchanged if that cannot be had.
-pub fn from_pieces(call: &Call<'_>, pieces: &[Piece], monitor: &mut Monitor<'_>) -> Candidate {
+pub fn from_pieces(call: &Call<'_>, pieces: &[Piece]) -> Candidate {
     let equations = &Equations::of(call.contact);
-    let mut dense = Dense::of(equations);
+    let mut dense = Dense::of(call, equations);
     let size = if equations.unit > 0.0 { equations.unit } else { 1.0 };
     let inside = |(law, piece): (&PairLaw, &Piece)| law.inside(*piece, size);
     let y = equations.laws.iter().zip(pieces).map(inside).collect();
     let point = Point::on(equations, pieces.to_vec(), y);
-    match dense.from(point, monitor) {
-        Ok(point) => dense.descend(point, (call.settings.tolerance, 0), monitor).into_candidate(),
+    match dense.from(point) {
+        Ok(point) => dense.descend(point, 0).into_candidate(),
         Err(ending) => Candidate::of_displacements(call.contact, call.start_or_zero(), ending),
     }
 }
 
 /// Equations whose systems are factorised.
 struct Dense<'e> {
+    call: &'e Call<'e>,
     equations: &'e Equations<'e>,
     systems: Systems<'e>,
     /// The pieces of the last system, and the coordinates there.
@@ -152,10 +141,11 @@ struct Dense<'e> {
 }
 
 impl<'e> Dense<'e> {
-    fn of(equations: &'e Equations<'e>) -> Self {
+    fn of(call: &'e Call<'e>, equations: &'e Equations<'e>) -> Self {
         let (pieces, swept_to) = (Vec::new(), Vec::new());
-        let systems = Systems::of(equations);
+        let systems = Systems::of(equations, call.monitor);
         Dense {
+            call,
             equations,
             systems,
             pieces,
@@ -170,17 +160,17 @@ impl<'e> Dense<'e> {
     }
 
     /// The solution on the pieces of a point of the plane. `Err`: that system is singular, or there is no time for it.
-    fn from(&mut self, point: Point, monitor: &mut Monitor<'_>) -> Result<Point, Ending> {
-        monitor.step()?;
-        let step = self.system(&point, monitor)?;
+    fn from(&mut self, point: Point) -> Result<Point, Ending> {
+        self.call.monitor.step()?;
+        let step = self.system(&point)?;
         Ok(point.after(self.equations, &step, 1.0))
     }
 
     /// The displacements of the solution on the pieces of a point of the plane, of which no forces are known yet. `Err`: as
     /// [`Self::from`].
-    fn again(&mut self, point: Point, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
-        monitor.step()?;
-        self.go_to(&point, monitor)?;
+    fn again(&mut self, point: Point) -> Result<Candidate, Ending> {
+        self.call.monitor.step()?;
+        self.go_to(&point)?;
         let dd = self.systems.motion(&point.lack)?;
         let d = point.d.iter().zip(dd).map(|(d, dd)| d + dd).collect();
         let effort = Effort::of_systems(self.systems.factorisations);
@@ -190,12 +180,8 @@ impl<'e> Dense<'e> {
     }
 
     /// Goes on from a point to a tolerance, with so many systems at least.
-    fn descend(
-        mut self,
-        point: Point,
-        (tolerance, least_systems): (f64, u64),
-        monitor: &mut Monitor<'_>,
-    ) -> Ended {
+    fn descend(mut self, point: Point, least_systems: u64) -> Ended {
+        let (tolerance, monitor) = (self.call.settings.tolerance, self.call.monitor);
         // In the plane the first solutions bring the zones near their places, whatever `|H|` is on the way.
         let full_steps = if self.equations.dim == 2 { FULL_STEPS } else { 0 };
         let mut goal = Goal { tolerance, least_systems, most_systems: MOST_SYSTEMS, full_steps };
@@ -219,9 +205,9 @@ impl<'e> Dense<'e> {
     }
 
     /// Goes to the system of the pieces of a point.
-    fn go_to(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    fn go_to(&mut self, point: &Point) -> Result<(), Ending> {
         let pairs = self.equations.linearised(&point.pieces, &point.y);
-        self.systems.go_to(pairs, monitor)?;
+        self.systems.go_to(pairs)?;
         self.orientation = self.systems.orientation();
         self.pieces.clone_from(&point.pieces);
         self.y.clone_from(&point.y);
@@ -229,8 +215,8 @@ impl<'e> Dense<'e> {
     }
 
     /// The step from the pieces of a point.
-    fn system(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
-        self.go_to(point, monitor)?;
+    fn system(&mut self, point: &Point) -> Result<Step, Ending> {
+        self.go_to(point)?;
         self.systems.step(&point.lack)
     }
 
@@ -238,9 +224,9 @@ impl<'e> Dense<'e> {
     ///
     /// The orientation stays that of `A`. If that of `J` differed, `A⁻¹ J` would have a negative eigenvalue, and what
     /// lies along its vector would grow with each step. The steps end where `eta` is `enough`.
-    fn chords(&mut self, mut point: Point, enough: f64, monitor: &mut Monitor<'_>) -> Point {
+    fn chords(&mut self, mut point: Point, enough: f64) -> Point {
         let equations = self.equations;
-        while !monitor.is_late() {
+        while !self.call.monitor.is_late() {
             let Ok(step) = self.systems.step(&point.lack) else { break };
             // A force that is carried along has the rounding of all steps: the last digits are measured anew.
             let next = point.after(equations, &Step { product: Vec::new(), ..step }, 1.0);
@@ -264,11 +250,11 @@ impl<'e> Dense<'e> {
     }
 
     /// The point after some sweeps, fewer if the time is up.
-    fn swept(&self, point: &Point, sweeps: usize, monitor: &mut Monitor<'_>) -> Point {
+    fn swept(&self, point: &Point, sweeps: usize) -> Point {
         let equations = self.equations;
         let (mut d, mut force) = (point.d.clone(), point.force.clone());
         let iterate = (&mut d[..], &mut force[..]);
-        sweep_pairs(&equations.laws, equations.matrix, iterate, (sweeps, 1.0), monitor);
+        sweep_pairs(&equations.laws, equations.matrix, iterate, (sweeps, 1.0), self.call.monitor);
         Point::new(equations, equations.coordinates(&d, &force))
     }
 }
@@ -285,7 +271,7 @@ impl NormalMap for Dense<'_> {
         point.merit
     }
 
-    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
+    fn step(&mut self, point: &Point) -> Result<Step, Ending> {
         if let Some((last, others)) = self.swept_to.split_last()
             && others.contains(last)
         {
@@ -295,7 +281,7 @@ impl NormalMap for Dense<'_> {
             self.left = Some(point.clone());
             return Err(OPEN);
         }
-        self.system(point, monitor)
+        self.system(point)
     }
 
     fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Ending> {
@@ -313,26 +299,26 @@ impl NormalMap for Dense<'_> {
         })
     }
 
-    fn after(&mut self, point: Point, part: f64, monitor: &mut Monitor<'_>) -> Point {
+    fn after(&mut self, point: Point, part: f64) -> Point {
         let is_linear = self.systems.are_of_pieces();
         self.is_exact = part == 1.0 && point.pieces == self.pieces;
         if is_linear && let Some(stuck) = self.without_reversal(&point) {
             return stuck;
         }
         if part < SHORT && self.swept_to.len() < PATIENCE {
-            let swept = self.swept(&point, RESWEEPS, monitor);
+            let swept = self.swept(&point, RESWEEPS);
             self.swept_to.push(swept.pieces.clone());
             return swept;
         }
         if self.is_exact {
             let anew = Point::new(self.equations, point.y);
             let is_enough = self.eta(&anew) <= ROUNDING_OF_ETA;
-            return if is_enough { anew } else { self.chords(anew, ROUNDING_OF_ETA, monitor) };
+            return if is_enough { anew } else { self.chords(anew, ROUNDING_OF_ETA) };
         }
         if !is_linear {
-            return if part == 1.0 { self.chords(point, 0.0, monitor) } else { point };
+            return if part == 1.0 { self.chords(point, 0.0) } else { point };
         }
-        let swept = self.swept(&point, SWEEPS, monitor);
+        let swept = self.swept(&point, SWEEPS);
         if swept.merit < point.merit { swept } else { point }
     }
 }

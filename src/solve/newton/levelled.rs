@@ -4,12 +4,11 @@
 use super::candidates::{self, Core};
 use crate::law::{LevelledTangents, references};
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Monitor;
 use crate::solve::result::{Call, Candidate, Ending};
 
 /// Solves a problem in space on levelled tangents: what that finds, on the tangents of the problem. `None` where no pair needs
 /// them, and where that fails.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) -> Option<Candidate> {
+pub fn solve(call: &Call<'_>, core: &mut Core<'_>) -> Option<Candidate> {
     let (contact, problem) = (call.contact, call.contact.problem());
     let of_pair = |(pair, law)| LevelledTangents::of(law, problem.tangential_block(pair));
     let tangents = || contact.pairs().iter().enumerate().map(of_pair);
@@ -27,8 +26,8 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>, core: &mut Core<'_>) ->
     let problem = problem.with_numbers(Matrix::new(size, &matrix, size), &load, Some(&slips));
     let levelled = contact.levelled(&problem, &tangents);
     let start = call.start.map(|start| changed(start, &tangents, LevelledTangents::levelled));
-    let call = Call { contact: &levelled, settings: call.settings, start: start.as_deref() };
-    let found = candidates::solve(&call, monitor, core);
+    let call = Call { contact: &levelled, start: start.as_deref(), ..*call };
+    let found = candidates::solve(&call, core);
     let on_own = || {
         let d = changed(found.d(), &tangents, LevelledTangents::displacement);
         let mut candidate = Candidate::of_displacements(contact, d, Ending::Done);

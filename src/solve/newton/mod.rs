@@ -25,13 +25,12 @@ pub use one_pair::solve as of_one_pair;
 pub use polish::{FullyRefined, refine_fully, refine_to_tolerance};
 pub use uncertain_pairs::solve_part;
 
-use crate::monitor::Monitor;
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Ending};
 
 /// Solves a problem by Newton's method.
-pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
-    if let Some(found) = one_pair::solve(call, monitor) {
+pub fn newton(call: &Call<'_>) -> Candidate {
+    if let Some(found) = one_pair::solve(call) {
         return found;
     }
     let (contact, settings) = (call.contact, call.settings);
@@ -41,27 +40,26 @@ pub fn newton(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     if !in_space && is_series && call.start.is_some() {
         let whole = Equations::of(contact);
         let overflown = || Candidate::without_displacements(contact, candidates::OVERFLOW);
-        return iteration::solve_in_plane(call, &whole, monitor).unwrap_or_else(overflown);
+        return iteration::solve_in_plane(call, &whole).unwrap_or_else(overflown);
     }
     let tolerance = settings.tolerance;
-    let core: &mut candidates::Core<'_> = &mut |equations, (y, leaves_open), monitor| {
-        iteration::solve(equations, y, (tolerance, !in_space && leaves_open), monitor)
+    let core: &mut candidates::Core<'_> = &mut |equations, (y, leaves_open)| {
+        iteration::solve(call, equations, y, !in_space && leaves_open)
     };
     let start = call.start.filter(|_| is_series);
-    let again =
-        start.and_then(|start| before::again(&Equations::of(contact), start, tolerance, monitor));
+    let again = start.and_then(|start| before::again(call, &Equations::of(contact), start));
     let near = match again {
         Some(found) if found.ending == Ending::Done => return found.into_candidate(),
         again => again.map(|found| found.d),
     };
     let call = &near.as_deref().map_or(*call, |d| call.from(d));
-    let levelled = if in_space { levelled::solve(call, monitor, core) } else { None };
+    let levelled = if in_space { levelled::solve(call, core) } else { None };
     match levelled {
-        None => on_candidates(call, monitor, core),
+        None => on_candidates(call, core),
         // A series goes on from the equations of its own tangents.
         Some(found) if !is_series && found.certificate(contact).eta <= AIM * tolerance => found,
         Some(found) => {
-            let mut candidate = on_candidates(&call.from(found.d()), monitor, core);
+            let mut candidate = on_candidates(&call.from(found.d()), core);
             candidate.effort.factorisations += found.effort.factorisations;
             candidate
         }

@@ -11,12 +11,11 @@ use crate::certificate::eta_of;
 use crate::law::{PairLaw, Piece, Vector};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
-use crate::monitor::Monitor;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// The solution of one pair in the plane, up to rounding of its forces, if some steps from the start lead there. If there is
 /// no start, the pair is closed without slip.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Candidate> {
+pub fn solve(call: &Call<'_>) -> Option<Candidate> {
     let contact = call.contact;
     let ([law], [n, t]) = (contact.pairs(), contact.problem().load()) else { return None };
     let equations = TwoEquations { law, matrix: contact.problem().stiffness(), load: [*n, *t] };
@@ -26,7 +25,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Candidate> {
     let mut y = law.chart(&d, &equations.force(d));
     let mut piece = law.piece(&y);
     for _ in 0..FULL_STEPS {
-        monitor.step().ok()?;
+        call.monitor.step().ok()?;
         let (step, orientation) = equations.step(piece, &y)?;
         y = [y[0] - step[0], y[1] - step[1], 0.0];
         let before = std::mem::replace(&mut piece, law.piece(&y));

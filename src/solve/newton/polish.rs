@@ -15,7 +15,7 @@ use crate::law::{Contact, Linearised, Piece};
 use crate::linalg::double_double::add_to_parts;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{Stop, Watch};
 use crate::solve::pieces::{Equations, SMALL, System};
 use crate::solve::result::{Call, Candidate, Ending, Errors};
 
@@ -28,7 +28,7 @@ const NEAR: f64 = 1e-3;
 
 /// Refines a candidate if its residual is above the tolerance and that helps. Where it was done and there was no time to
 /// see, it is stopped.
-pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate, monitor: &mut Monitor<'_>) {
+pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate) {
     let (contact, settings) = (call.contact, call.settings);
     let old = candidate.certificate(contact);
     let is_finite = candidate.d().iter().all(|d| d.is_finite());
@@ -40,7 +40,7 @@ pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate, monitor: 
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
     let aim = AIM * settings.tolerance;
-    let mut newton = Newton::on(&equations, monitor);
+    let mut newton = Newton::on(&equations, call.monitor);
     let refined = refine((contact, &at_reference), candidate, aim, &mut newton);
     let new = refined.certificate(contact);
     if new.residual <= settings.tolerance && !new.runs_away() {
@@ -60,14 +60,11 @@ pub struct FullyRefined {
 }
 
 /// Refines displacements to the last digits; `None` if the system there is singular, or if there is no time.
-pub fn refine_fully(
-    contact: &Contact<'_>,
-    candidate: &Candidate,
-    monitor: &mut Monitor<'_>,
-) -> Option<FullyRefined> {
+pub fn refine_fully(call: &Call<'_>, candidate: &Candidate) -> Option<FullyRefined> {
+    let contact = call.contact;
     let at_reference = contact.at_its_reference();
     let equations = Equations::of(&at_reference);
-    let mut newton = Newton::on(&equations, monitor);
+    let mut newton = Newton::on(&equations, call.monitor);
     let mut candidate = refine((contact, &at_reference), candidate, 0.0, &mut newton);
     if newton.is_stopped {
         return None;
@@ -83,7 +80,7 @@ fn refine(
     (contact, at_reference): (&Contact<'_>, &Contact<'_>),
     candidate: &Candidate,
     aim: f64,
-    newton: &mut Newton<'_, '_>,
+    newton: &mut Newton<'_>,
 ) -> Candidate {
     let (mut d, mut low) = (candidate.d().to_vec(), vec![0.0; candidate.d().len()]);
     let mut best = candidate.clone();
@@ -163,7 +160,7 @@ impl Steps {
 }
 
 /// Newton's steps, whose factor is kept.
-struct Newton<'e, 'm> {
+struct Newton<'e> {
     equations: &'e Equations<'e>,
     /// The factor, with the pieces at which it was made.
     kept: Option<(System, Vec<Piece>)>,
@@ -172,11 +169,11 @@ struct Newton<'e, 'm> {
     factorisations: u64,
     /// True if a factorisation or a step was left out as there was no time for it.
     is_stopped: bool,
-    monitor: &'e mut Monitor<'m>,
+    monitor: &'e dyn Watch,
 }
 
-impl<'e, 'm> Newton<'e, 'm> {
-    fn on(equations: &'e Equations<'e>, monitor: &'e mut Monitor<'m>) -> Self {
+impl<'e> Newton<'e> {
+    fn on(equations: &'e Equations<'e>, monitor: &'e dyn Watch) -> Self {
         let (kept, is_good, is_stopped) = (None, false, false);
         Newton { equations, kept, is_good, factorisations: 0, is_stopped, monitor }
     }

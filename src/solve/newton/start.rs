@@ -9,7 +9,7 @@
 use std::ops::RangeInclusive;
 
 use crate::law::{Vector, references};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::pieces::Equations;
 use crate::solve::sweeps::sweep_pairs;
 
@@ -44,7 +44,7 @@ const WORTHWHILE: f64 = 0.7;
 pub(super) fn swept(
     whole: &Equations<'_>,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Option<Vec<Vector>> {
     let mut d = match start {
         Some(start) => start.to_vec(),
@@ -58,7 +58,7 @@ pub(super) fn swept(
     let rounds = if whole.dim == 2 { IN_PLANE } else { IN_SPACE };
     let (fewest, most) = rounds.sweeps.into_inner();
     let sweeps = (whole.root.len() / rounds.unknowns_per_sweep).clamp(fewest, most);
-    let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega, monitor: &mut Monitor<'_>| {
+    let round = |d: &mut Vec<f64>, force: &mut Vec<f64>, omega| {
         for sweeps in [(sweeps - 1, omega), (1, 1.0)] {
             sweep_pairs(&whole.laws, whole.matrix, (&mut d[..], &mut force[..]), sweeps, monitor);
         }
@@ -68,10 +68,10 @@ pub(super) fn swept(
     let mut omega = OVER_RELAXATION;
     for number in 1..=rounds.most {
         if number <= IN_SPACE.least || omega <= 1.0 {
-            eta = round(&mut d, &mut force, 1.0, monitor);
+            eta = round(&mut d, &mut force, 1.0);
         } else {
             let before = (d.clone(), force.clone());
-            let after = round(&mut d, &mut force, omega, monitor);
+            let after = round(&mut d, &mut force, omega);
             if after <= WORTHWHILE * eta {
                 eta = after;
             } else {

@@ -9,7 +9,6 @@
 
 use super::iteration::from_pieces;
 use crate::law::{Contact, PairLaw, Piece};
-use crate::monitor::Monitor;
 use crate::solve::part::{PairData, ReducedProblem};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Ending};
@@ -33,24 +32,20 @@ const PATIENCE: f64 = 5.0;
 const ENOUGH: f64 = 1e-6;
 
 /// A solver of the pairs in question.
-pub type Core<'c> = dyn FnMut(&Call<'_>, &mut Monitor<'_>) -> Candidate + 'c;
+pub type Core<'c> = dyn FnMut(&Call<'_>) -> Candidate + 'c;
 
 /// Solves a problem by `core` on the pairs in question. `Err`: too many pairs are in question, too few are decided, or the
 /// core has found no solution; how far the displacements have come.
-pub fn solve_part(
-    call: &Call<'_>,
-    monitor: &mut Monitor<'_>,
-    core: &mut Core<'_>,
-) -> Result<Candidate, Vec<f64>> {
+pub fn solve_part(call: &Call<'_>, core: &mut Core<'_>) -> Result<Candidate, Vec<f64>> {
     let (contact, settings) = (call.contact, call.settings);
-    let (mut d, mut question) = InQuestion::after_sweeps(contact, &call.start_or_zero(), monitor);
+    let (mut d, mut question) = InQuestion::after_sweeps(call);
     let (whole, mut systems) = (Equations::of(contact), 0);
-    let last = monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
+    let last = call.monitor.iterations() + (PATIENCE * contact.pairs().len() as f64) as u64;
     let stopped = loop {
-        if !question.is_fewer_than(MOST) || monitor.iterations() > last {
+        if !question.is_fewer_than(MOST) || call.monitor.iterations() > last {
             return Err(d);
         }
-        let reduced = match ReducedProblem::new(&whole, &question.held(contact), monitor) {
+        let reduced = match ReducedProblem::new(&whole, &question.held(contact), call.monitor) {
             Ok(Some(reduced)) => reduced,
             Ok(None) => return Err(d),
             Err(stop) => break Some(stop),
@@ -58,7 +53,7 @@ pub fn solve_part(
         let own = PairData::of(contact.problem(), &reduced.kept().collect::<Vec<usize>>());
         let Some(problem) = reduced.problem(contact.problem(), &own) else { return Err(d) };
         let part = Contact::new(&problem);
-        let candidate = core(&Call::new(&part, settings).from(&reduced.restrict(&d)), monitor);
+        let candidate = core(&Call::new(&part, settings, call.monitor).from(&reduced.restrict(&d)));
         systems += candidate.effort.factorisations;
         match candidate.ending {
             Ending::Stopped(stop) => break Some(stop),
@@ -74,7 +69,7 @@ pub fn solve_part(
         Some(stop) => {
             Candidate::of_displacements(contact, call.start_or_zero(), Ending::Stopped(stop))
         }
-        None => from_pieces(&call.from(&d), &question.pieces, monitor),
+        None => from_pieces(&call.from(&d), &question.pieces),
     };
     found.effort.factorisations += systems;
     Ok(found)
@@ -87,18 +82,15 @@ struct InQuestion {
 }
 
 impl InQuestion {
-    /// The pairs whose piece changes in sweeps from `d`, or that are not held on it; and the displacements after
+    /// The pairs whose piece changes in sweeps from the start, or that are not held on it; and the displacements after
     /// the sweeps.
-    fn after_sweeps(
-        contact: &Contact<'_>,
-        d: &[f64],
-        monitor: &mut Monitor<'_>,
-    ) -> (Vec<f64>, Self) {
-        let mut d = contact.admissible(d);
+    fn after_sweeps(call: &Call<'_>) -> (Vec<f64>, Self) {
+        let contact = call.contact;
+        let mut d = contact.admissible(&call.start_or_zero());
         let mut force = contact.problem().force(&d);
         let (laws, matrix) = (contact.pairs(), contact.problem().stiffness());
         let mut swept = |d: &mut Vec<f64>| {
-            sweep_pairs(laws, matrix, (&mut d[..], &mut force), (1, 1.0), monitor);
+            sweep_pairs(laws, matrix, (&mut d[..], &mut force), (1, 1.0), call.monitor);
             contact.pieces(d, &force)
         };
         let mut pieces = Vec::new();

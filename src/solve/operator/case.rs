@@ -10,7 +10,7 @@ use crate::certificate::{Certificate, is_spread_escape, measure_spread};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, gaps_within_reach, references};
 use crate::linalg::vector::{normalise, opposite};
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Watch};
 use crate::problem::{ContactProblem, FrictionLaw, MatrixFree, StiffnessOperator};
 use crate::settings::{Method, Search, Settings};
 use crate::solve::plan::{self, FAR, remark_on_data};
@@ -64,23 +64,23 @@ pub fn solve(
     settings: &Settings,
     start: Option<&[f64]>,
     past: &mut CasePast,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Solution, Error> {
     check(settings)?;
-    let mut bodies = Session::new(bodies);
-    let loaded = Loaded::new(&mut bodies, (case, settings), past, monitor)?;
+    let mut bodies = Session::new(bodies, monitor);
+    let loaded = Loaded::new(&mut bodies, (case, settings), past)?;
     let whole = loaded.problem(&bodies, case.gap)?;
     let contact = &Contact::new(&whole);
     let mut solution = None;
     if let Some(gaps) = gaps_within_reach(contact, &[], FAR) {
         let near = loaded.problem(&bodies, &gaps)?;
         let near = &Contact::new(&near);
-        let found = loaded.solve((contact, near), &mut bodies, start, past, monitor)?;
+        let found = loaded.solve((contact, near), &mut bodies, start, past)?;
         solution = Some(found).filter(|found| found.status != Status::Stalled);
     }
     let solution = match solution {
         Some(solution) => solution,
-        None => loaded.solve((contact, contact), &mut bodies, start, past, monitor)?,
+        None => loaded.solve((contact, contact), &mut bodies, start, past)?,
     };
     let Session { solutions, factorisations, .. } = bodies;
     Ok(Solution { factorisations, outer_iterations: solutions, ..solution })
@@ -95,14 +95,14 @@ pub fn certify(
     case: &Case<'_>,
     d: &[f64],
 ) -> Result<Certificate, Error> {
-    let mut bodies = Session::new(bodies);
     let settings = &Settings::default();
-    let endless = &mut Monitor::new(settings, None);
-    let loaded = Loaded::new(&mut bodies, (case, settings), &mut CasePast::default(), endless)?;
+    let endless = &Monitor::new(settings, None);
+    let mut bodies = Session::new(bodies, endless);
+    let loaded = Loaded::new(&mut bodies, (case, settings), &mut CasePast::default())?;
     let problem = loaded.problem(&bodies, case.gap)?;
     let mut at = loaded.at_zero.clone();
     at.x[bodies.operator.inner()..].copy_from_slice(d);
-    at = ended(at.clone().settled((&mut bodies, case.dim), case.load, endless))?.unwrap_or(at);
+    at = ended(at.clone().settled((&mut bodies, case.dim), case.load))?.unwrap_or(at);
     let residual = bodies.residual(&at.x, &at.low, case.load)?;
     Ok(measure_spread(&Contact::new(&problem), bodies.operator, &at.x, &residual))
 }
@@ -126,13 +126,12 @@ impl<'a> Loaded<'a> {
         bodies: &mut Session<'_>,
         (case, settings): (&'a Case<'a>, &'a Settings),
         past: &mut CasePast,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Self, Error> {
         let inner = bodies.operator.inner();
         let nothing = Displacements::zero(case.load.len(), inner);
         let found = past.at_zero(case.load, || {
-            bodies.hold_all(case.dim, monitor)?;
-            nothing.clone().in_equilibrium(bodies, (case.load, LEFT_AT_START), monitor)
+            bodies.hold_all(case.dim)?;
+            nothing.clone().in_equilibrium(bodies, (case.load, LEFT_AT_START))
         });
         let (at_zero, stopped) = match ended(found)? {
             Ok(at_zero) => (at_zero, None),
@@ -160,7 +159,6 @@ impl<'a> Loaded<'a> {
         near: &Contact<'_, MatrixFree<'_>>,
         bodies: &mut Session<'_>,
         (start, past): (Option<&[f64]>, &CasePast),
-        monitor: &mut Monitor<'_>,
     ) -> Result<Displacements, Ending> {
         if let Some(stopped) = &self.stopped {
             return Err(stopped.clone());
@@ -168,7 +166,7 @@ impl<'a> Loaded<'a> {
         if let Some(last) = start.and_then(|start| past.last(start)) {
             return Ok(last.clone());
         }
-        bodies.hold_all(self.case.dim, monitor)?;
+        bodies.hold_all(self.case.dim)?;
         let mut at = self.at_zero.clone();
         let of_pairs = &mut at.x[bodies.operator.inner()..];
         let references = || references(near.pairs(), self.case.dim).collect();
@@ -176,7 +174,7 @@ impl<'a> Loaded<'a> {
         if of_pairs.iter().all(|x| *x == 0.0) && !bodies.operator.is_exact() {
             return Ok(at);
         }
-        at.in_equilibrium(bodies, (self.case.load, LEFT_AT_START), monitor)
+        at.in_equilibrium(bodies, (self.case.load, LEFT_AT_START))
     }
 
     /// The pairs at zero without a relative load, if that is a solution: as it was found, or, where loads act far from the
@@ -186,7 +184,6 @@ impl<'a> Loaded<'a> {
         contact: &Contact<'_, MatrixFree<'_>>,
         bodies: &mut Session<'_>,
         past: &mut CasePast,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Option<Solution>, Error> {
         let mut rest_at = |at: &Displacements, residual: &[f64], bodies: &mut Session<'_>| {
             let rest = self.result(contact, bodies, ((at, residual), &Ending::Done), past);
@@ -197,7 +194,7 @@ impl<'a> Loaded<'a> {
             return Ok(rest);
         }
         let Case { dim, load, .. } = *self.case;
-        let settled = self.at_zero.clone().settled((bodies, dim), load, monitor);
+        let settled = self.at_zero.clone().settled((bodies, dim), load);
         let Ok(at) = ended(settled)? else { return Ok(None) };
         let residual = bodies.residual(&at.x, &at.low, load)?;
         Ok(rest_at(&at, &residual, bodies))
@@ -210,21 +207,20 @@ impl<'a> Loaded<'a> {
         bodies: &mut Session<'_>,
         start: Option<&[f64]>,
         past: &mut CasePast,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Solution, Error> {
         let at_zero = (&self.at_zero, &self.residual[..]);
         if contact.is_unloaded()
-            && let Some(rest) = self.rest(contact, bodies, past, monitor)?
+            && let Some(rest) = self.rest(contact, bodies, past)?
         {
             return Ok(rest);
         }
-        let at = match ended(self.start(near, bodies, (start, past), monitor))? {
+        let at = match ended(self.start(near, bodies, (start, past)))? {
             Ok(at) => at,
             Err(ending) => return Ok(self.result(contact, bodies, (at_zero, &ending), past)),
         };
         let tolerance = self.settings.tolerance;
         let equations = Equations::new(near, bodies.operator, self.case.load, tolerance);
-        let Outcome { point, ending, .. } = by_attempts(&equations, bodies, &at, monitor)?;
+        let Outcome { point, ending, .. } = by_attempts(&equations, bodies, &at)?;
         let found = ((&point.at, &point.residual[..]), &ending);
         let mut solution = self.result(contact, bodies, found, past);
         if let Ending::Recession(motion) = ending
@@ -235,7 +231,7 @@ impl<'a> Loaded<'a> {
             let mut motion = motion[bodies.operator.inner()..].to_vec();
             normalise(&mut motion);
             solution.recession = Some(motion);
-            describe(contact, bodies, &mut solution, monitor)?;
+            describe(contact, bodies, &mut solution)?;
         }
         Ok(solution)
     }
@@ -270,10 +266,9 @@ fn by_attempts(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
     start: &Displacements,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let point = equations.held_at(start.clone(), bodies)?;
-    let best = newton::solve(equations, bodies, point, monitor)?;
+    let best = newton::solve(equations, bodies, point)?;
     let mut tried = Tried { equations, bodies, start, best };
     for attempt in [balance, condensed::solve, thresholds::solve, refine] {
         let Outcome { point: Point { at, residual, merit, .. }, ending, .. } = &tried.best;
@@ -282,7 +277,7 @@ fn by_attempts(
         if has_ended || certificate.holds(equations.tolerance) || !merit.is_finite() {
             break;
         }
-        if let Err(ending) = ended(attempt(&mut tried, monitor))? {
+        if let Err(ending) = ended(attempt(&mut tried))? {
             tried.best.ending = ending;
         }
     }
@@ -291,10 +286,10 @@ fn by_attempts(
 
 /// Ends with a free motion that proves that no equilibrium exists: one that the balance of the loads finds, or that of the
 /// displacements that Newton's method has ended with.
-fn balance(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+fn balance(tried: &mut Tried<'_, '_>) -> Result<(), Ending> {
     let Tried { equations, bodies, best, .. } = tried;
     let contact = equations.contact;
-    let Some(motions) = FreeMotions::of(bodies, contact.dim(), monitor)? else { return Ok(()) };
+    let Some(motions) = FreeMotions::of(bodies, contact.dim())? else { return Ok(()) };
     let (balance, d) = (motions.balance(contact, bodies.operator), &best.point.at.x);
     let found = balance
         .escape()
@@ -306,10 +301,10 @@ fn balance(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), E
 }
 
 /// Takes inner displacements that are in equilibrium with those of the pairs, if that leaves less.
-fn refine(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+fn refine(tried: &mut Tried<'_, '_>) -> Result<(), Ending> {
     let Tried { equations, bodies, best, .. } = tried;
     let (at, dim) = (best.point.at.clone(), equations.contact.dim());
-    let point = equations.held_at(at.settled((bodies, dim), equations.load, monitor)?, bodies)?;
+    let point = equations.held_at(at.settled((bodies, dim), equations.load)?, bodies)?;
     if point.eta < best.point.eta {
         best.point = point;
     }
@@ -321,14 +316,13 @@ fn describe(
     contact: &Contact<'_, MatrixFree<'_>>,
     bodies: &mut Session<'_>,
     solution: &mut Solution,
-    monitor: &mut Monitor<'_>,
 ) -> Result<(), Error> {
     // If others are not found in time, the motion of the proof stands for all.
-    let motions = ended(FreeMotions::of(bodies, contact.dim(), monitor))?.unwrap_or_default();
+    let motions = ended(FreeMotions::of(bodies, contact.dim()))?.unwrap_or_default();
     let fits = condensed::fits(contact.unknowns(), (bodies.operator.inner(), contact.unknowns()));
     let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
     let solve = fits.then_some(plan::solve as Solve);
-    rigid::describe(contact, solution, balance, solve, monitor)
+    rigid::describe(contact, solution, balance, solve, bodies.monitor)
 }
 
 /// The result of a work, or how the call ends where the work was ended.

@@ -16,7 +16,7 @@ use super::point::{Displacements, Equations, Point};
 use super::session::Session;
 use crate::certificate::is_spread_escape;
 use crate::law::{Contact, PairLaw};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{ContactData, ContactProblem, HeldSet, SOLUTIONS};
 use crate::settings::Settings;
 use crate::solve::part::{PairData, closed_with_margin};
@@ -33,7 +33,7 @@ pub fn fits(components: usize, (inner, all): (usize, usize)) -> bool {
 }
 
 /// Goes on from a try that has failed.
-pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+pub fn solve(tried: &mut Tried<'_, '_>) -> Result<(), Ending> {
     let Tried { equations, bodies, best, .. } = tried;
     if !bodies.operator.is_exact() {
         return Ok(());
@@ -46,11 +46,11 @@ pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(),
     let mut at = best.point.at.clone();
     let sizes = (equations.inner, equations.contact.unknowns());
     while fits(equations.contact.dim() * chosen.len(), sizes) {
-        let condensed = Condensed::new(equations, bodies, &chosen, &at, monitor)?;
-        let found = condensed.solved(equations, &chosen, &at, monitor)?;
+        let condensed = Condensed::new(equations, bodies, &chosen, &at)?;
+        let found = condensed.solved(equations, &chosen, &at, bodies.monitor)?;
         let (joins, solved): (Vec<bool>, Option<Point>) = match found {
             Some(Solution { status: Status::Solved, d, .. }) => {
-                let point = condensed.with(bodies, at, (&d, equations.load), monitor)?;
+                let point = condensed.with(bodies, at, (&d, equations.load))?;
                 let point = equations.held_at(point, bodies)?;
                 at = point.at.clone();
                 (point.pieces.iter().map(|piece| piece.closed).collect(), Some(point))
@@ -58,7 +58,7 @@ pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(),
             Some(Solution { status: Status::NoEquilibrium, recession: Some(motion), .. }) => {
                 let rest = Displacements::zero(equations.load.len(), equations.inner);
                 let unloaded = vec![0.0; equations.load.len()];
-                let motion = condensed.with(bodies, rest, (&motion, &unloaded), monitor)?.x;
+                let motion = condensed.with(bodies, rest, (&motion, &unloaded))?.x;
                 if is_spread_escape(equations.contact, bodies.operator, &motion)? {
                     return Err(Ending::Recession(motion));
                 }
@@ -72,7 +72,7 @@ pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(),
         chosen = (0..laws.len()).filter(|k| joins[*k] || chosen.binary_search(k).is_ok()).collect();
         if chosen.len() == before {
             if let Some(point) = solved {
-                improve(best, newton::solve(equations, bodies, point, monitor)?);
+                improve(best, newton::solve(equations, bodies, point)?);
             }
             break;
         }
@@ -96,22 +96,21 @@ impl Condensed {
         bodies: &mut Session<'_>,
         pairs: &[usize],
         near: &Displacements,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Self, Ending> {
         let (dim, inner) = (equations.contact.dim(), equations.inner);
         let mut held_set = HeldSet::none(dim, equations.contact.pairs().len());
         let own: Vec<usize> = pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
         own.iter().for_each(|&i| held_set.held[i] = true);
-        bodies.hold_under(&held_set, monitor)?;
+        bodies.hold_under(&held_set)?;
         let places: Vec<usize> = own.iter().map(|i| inner + i).collect();
         let size = places.len();
         let mut condensed = Condensed { places, matrix: vec![0.0; size * size], load: Vec::new() };
         let (near, nothing) = (near.clone(), vec![0.0; size]);
-        let at = condensed.with(bodies, near, (&nothing, equations.load), monitor)?;
+        let at = condensed.with(bodies, near, (&nothing, equations.load))?;
         let forces = bodies.residual(&at.x, &at.low, equations.load)?;
         condensed.load = condensed.places.iter().map(|&i| -forces[i]).collect();
         for j in 0..size {
-            let column = condensed.column(bodies, j, monitor)?;
+            let column = condensed.column(bodies, j)?;
             condensed.matrix[size * j..size * (j + 1)].copy_from_slice(&column);
         }
         // Entries that are equal but for rounding become their mean.
@@ -124,18 +123,13 @@ impl Condensed {
     }
 
     /// The forces on the components where component `j` is moved by one.
-    fn column(
-        &self,
-        bodies: &mut Session<'_>,
-        j: usize,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<f64>, Ending> {
-        monitor.goes_on()?;
+    fn column(&self, bodies: &mut Session<'_>, j: usize) -> Result<Vec<f64>, Ending> {
+        bodies.monitor.goes_on()?;
         let mut x = vec![0.0; bodies.operator.units().len()];
         x[self.places[j]] = 1.0;
         let mut forces = bodies.product(&x)?;
         if bodies.has_free_unknowns() {
-            let others = bodies.solve(&forces, monitor)?;
+            let others = bodies.solve(&forces)?;
             let taken = bodies.product(&others)?;
             forces.iter_mut().zip(taken).for_each(|(force, taken)| *force -= taken);
         }
@@ -149,11 +143,10 @@ impl Condensed {
         bodies: &mut Session<'_>,
         mut at: Displacements,
         (d, load): (&[f64], &[f64]),
-        monitor: &mut Monitor<'_>,
     ) -> Result<Displacements, Ending> {
         self.places.iter().zip(d).for_each(|(&i, d)| at.x[i] = *d);
         for _ in 0..=SOLUTIONS {
-            at = at.in_equilibrium(bodies, (load, 0.0), monitor)?;
+            at = at.in_equilibrium(bodies, (load, 0.0))?;
         }
         Ok(at)
     }
@@ -165,7 +158,7 @@ impl Condensed {
         whole: &Equations<'_>,
         pairs: &[usize],
         start: &Displacements,
-        monitor: &mut Monitor<'_>,
+        monitor: &dyn Watch,
     ) -> Result<Option<Solution>, Ending> {
         let problem = whole.contact.problem();
         let own = PairData::of(problem, pairs);
@@ -183,7 +176,7 @@ impl Condensed {
         let contact = &Contact::new(&problem);
         let start: Vec<f64> = self.places.iter().map(|&i| start.x[i]).collect();
         let settings = Settings { tolerance: whole.tolerance, ..Settings::default() };
-        let found = plan::solve(&Call::new(contact, &settings).from(&start), monitor)?;
+        let found = plan::solve(&Call::new(contact, &settings, monitor).from(&start))?;
         found.status.stop().map_or(Ok(Some(found)), |stop| Err(stop.into()))
     }
 }

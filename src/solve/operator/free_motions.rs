@@ -12,7 +12,6 @@ use crate::linalg::eigen::eigenvectors;
 use crate::linalg::gmres::orthogonalised;
 use crate::linalg::perturbation::Perturbation;
 use crate::linalg::vector::{combination, dot};
-use crate::monitor::Monitor;
 use crate::problem::{HeldSet, MatrixFree, StiffnessOperator};
 use crate::solve::result::Ending;
 use crate::solve::rigid::{Balance, RigidMotions};
@@ -36,20 +35,16 @@ pub struct FreeMotions {
 impl FreeMotions {
     /// The motions of bodies with pairs of `dim` components; `None` if there are none, or too many, or if `A` is no
     /// sparse matrix with a factor.
-    pub fn of(
-        bodies: &mut Session<'_>,
-        dim: usize,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Self>, Ending> {
+    pub fn of(bodies: &mut Session<'_>, dim: usize) -> Result<Option<Self>, Ending> {
         let components = bodies.operator.units().len() - bodies.operator.inner();
         let has_factor = bodies.operator.is_sparse() && bodies.operator.is_exact();
         if !has_factor || components == 0 {
             return Ok(None);
         }
-        bodies.hold_under(&HeldSet::none(dim, components / dim), monitor)?;
+        bodies.hold_under(&HeldSet::none(dim, components / dim))?;
         let mut count = FIRST;
         while count <= MOST {
-            let motions = FreeMotions::among(bodies, count.min(components), monitor)?;
+            let motions = FreeMotions::among(bodies, count.min(components))?;
             let found = motions.whole.len();
             if found < count.min(components) || count >= components {
                 return Ok((found > 0).then_some(motions));
@@ -60,11 +55,7 @@ impl FreeMotions {
     }
 
     /// The free ones of so many motions that are resisted least.
-    fn among(
-        bodies: &mut Session<'_>,
-        count: usize,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Self, Ending> {
+    fn among(bodies: &mut Session<'_>, count: usize) -> Result<Self, Ending> {
         let inner = bodies.operator.inner();
         let root: Vec<f64> = bodies.operator.units()[inner..].iter().map(|u| u.sqrt()).collect();
         let mut rigid = RigidMotions { root, basis: Vec::new() };
@@ -73,19 +64,19 @@ impl FreeMotions {
         let mut basis: Vec<Vec<f64>> =
             (0..count).map(|_| rigid.root.iter().map(|_| random.next()).collect()).collect();
         for _ in 0..STEPS {
-            monitor.goes_on()?;
+            bodies.monitor.goes_on()?;
             let mut forces = Vec::with_capacity(count * (inner + rigid.root.len()));
             for motion in &basis {
                 forces.resize(forces.len() + inner, 0.0);
                 forces.extend(motion.iter().zip(&rigid.root).map(|(r, root)| r * root));
             }
-            let images = bodies.solve(&forces, monitor)?;
+            let images = bodies.solve(&forces)?;
             let images = images.chunks_exact(inner + rigid.root.len());
             (basis, whole) = orthonormal(&rigid, inner, images);
         }
         let mut products = Vec::new();
         for motion in &whole {
-            monitor.goes_on()?;
+            bodies.monitor.goes_on()?;
             products.push(bodies.product(motion)?);
         }
         let energy =

@@ -6,7 +6,6 @@ use super::session::Session;
 use super::system::{Step, System, changed};
 use crate::error::Error;
 use crate::law::Vector;
-use crate::monitor::Monitor;
 use crate::solve::newton::{AIM, Goal, NewtonOutcome, NormalMap, descend};
 use crate::solve::result::Ending;
 
@@ -42,9 +41,9 @@ pub fn solve(
     equations: &Equations<'_>,
     bodies: &mut Session<'_>,
     mut point: Point,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Outcome, Error> {
     let goal = Goal { full_steps: FULL_STEPS, ..Goal::of(equations.tolerance) };
+    let monitor = bodies.monitor;
     let mut newton = Newton { equations, bodies, known: Vec::new() };
     let mut before = f64::INFINITY;
     loop {
@@ -97,28 +96,28 @@ impl NormalMap for Newton<'_, '_> {
     }
 
     /// With a new factor where the old one leaves too much.
-    fn step(&mut self, point: &Point, monitor: &mut Monitor<'_>) -> Result<Step, Ending> {
+    fn step(&mut self, point: &Point) -> Result<Step, Ending> {
         let least = FORCING_OF_ETA * AIM * self.equations.tolerance / point.eta;
         let forcing = FORCING.min(FORCING_OF_ETA * point.eta).max(least);
         let (bodies, known) = (&mut *self.bodies, &mut self.known);
         let system = System::new(self.equations, point, bodies.operator);
         let factor = bodies.held();
         if factor.is_none() {
-            bodies.hold_under(&system.held_set, monitor)?;
+            bodies.hold_under(&system.held_set)?;
         }
         if let Some(factor) = factor.filter(|factor| **factor != system.held_set) {
             let pairs = factor.springs.len();
             if changed(&factor, &system.held_set) as f64 <= CHANGED * pairs as f64 {
-                let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known, monitor)?;
+                let step = system.step(bodies, (forcing, MOST_DIRECTIONS / 4), known)?;
                 if step.left <= FORCING {
                     return Ok(step);
                 }
             } else {
                 known.clear();
             }
-            bodies.hold_under(&system.held_set, monitor)?;
+            bodies.hold_under(&system.held_set)?;
         }
-        system.step(bodies, (forcing, MOST_DIRECTIONS), known, monitor)
+        system.step(bodies, (forcing, MOST_DIRECTIONS), known)
     }
 
     fn moved(&mut self, point: &Point, step: &Step, part: f64) -> Result<Point, Ending> {

@@ -5,7 +5,6 @@ use crate::error::Error;
 use crate::law::{Contact, Piece, Vector, natural_sum, scale_roots};
 use crate::linalg::double_double::add_to_parts;
 use crate::linalg::vector::{norm, norm_of};
-use crate::monitor::Monitor;
 use crate::problem::{MatrixFree, Relation, SOLUTIONS, StiffnessOperator};
 use crate::solve::result::Ending;
 
@@ -124,13 +123,12 @@ impl Displacements {
         self,
         bodies: &mut Session<'_>,
         (load, left): (&[f64], f64),
-        monitor: &mut Monitor<'_>,
     ) -> Result<Self, Ending> {
         if !bodies.has_free_unknowns() {
             return Ok(self);
         }
         let lack = bodies.residual(&self.x, &self.low, load)?;
-        let step = bodies.solve_to((&lack, left), monitor)?;
+        let step = bodies.solve_to((&lack, left))?;
         Ok(self.moved(-1.0, &step))
     }
 
@@ -139,11 +137,10 @@ impl Displacements {
         mut self,
         (bodies, dim): (&mut Session<'_>, usize),
         load: &[f64],
-        monitor: &mut Monitor<'_>,
     ) -> Result<Self, Ending> {
-        bodies.hold_all(dim, monitor)?;
+        bodies.hold_all(dim)?;
         for _ in 0..SOLUTIONS {
-            self = self.in_equilibrium(bodies, (load, LEFT_BY_MEASURE), monitor)?;
+            self = self.in_equilibrium(bodies, (load, LEFT_BY_MEASURE))?;
         }
         Ok(self)
     }

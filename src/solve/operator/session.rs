@@ -4,13 +4,14 @@ use std::rc::Rc;
 
 use crate::error::Error;
 use crate::linalg::vector::first_not_finite;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{GoesOn, HeldSet, StiffnessOperator, iterated};
 use crate::solve::result::Ending;
 
 /// An operator with its last factor and its counts.
 pub struct Session<'b> {
     pub operator: &'b mut dyn StiffnessOperator,
+    pub monitor: &'b dyn Watch,
     /// The components that the factor holds; `None`: there is no factor.
     held: Option<Rc<HeldSet>>,
     pub solutions: u64,
@@ -18,9 +19,9 @@ pub struct Session<'b> {
 }
 
 impl<'b> Session<'b> {
-    pub fn new(operator: &'b mut dyn StiffnessOperator) -> Self {
+    pub fn new(operator: &'b mut dyn StiffnessOperator, monitor: &'b dyn Watch) -> Self {
         let held = operator.held_set().map(|held_set| Rc::new(held_set.clone()));
-        Session { operator, held, solutions: 0, factorisations: 0 }
+        Session { operator, monitor, held, solutions: 0, factorisations: 0 }
     }
 
     /// The components that the factor holds; `None`: solutions are those of an inverse.
@@ -29,24 +30,20 @@ impl<'b> Session<'b> {
     }
 
     /// Holds all components of pairs that have `dim` of them, if the operator can hold any.
-    pub fn hold_all(&mut self, dim: usize, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    pub fn hold_all(&mut self, dim: usize) -> Result<(), Ending> {
         let components = self.operator.units().len() - self.operator.inner();
-        self.hold_under(&HeldSet::all(dim, components / dim), monitor)
+        self.hold_under(&HeldSet::all(dim, components / dim))
     }
 
     /// Holds components until the next call, if the operator can hold any. The factor of the last call serves again where it
     /// holds the same components.
-    pub fn hold_under(
-        &mut self,
-        held_set: &HeldSet,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Ending> {
+    pub fn hold_under(&mut self, held_set: &HeldSet) -> Result<(), Ending> {
         if !self.operator.can_hold() || self.held.as_deref() == Some(held_set) {
             return Ok(());
         }
         self.held = None;
         self.factorisations += 1;
-        let is_held = asked(monitor, |goes_on| self.operator.hold(held_set, goes_on))?;
+        let is_held = asked(self.monitor, |goes_on| self.operator.hold(held_set, goes_on))?;
         if !is_held {
             return Err(Ending::Stalled(
                 "the bodies cannot be told from bodies that fall apart: no factor exists with springs on the pairs",
@@ -86,28 +83,24 @@ impl<'b> Session<'b> {
 
     /// A solution with the held components at zero, or with the inverse, or what the preconditioner makes of the forces.
     /// The host is not asked with numbers that are not finite: a singular operator leads there.
-    pub fn solve(&mut self, forces: &[f64], monitor: &mut Monitor<'_>) -> Result<Vec<f64>, Ending> {
-        monitor.goes_on()?;
+    pub fn solve(&mut self, forces: &[f64]) -> Result<Vec<f64>, Ending> {
+        self.monitor.goes_on()?;
         if first_not_finite(forces).is_some() {
             return Err(Ending::Stalled("the forces are beyond the largest number"));
         }
         self.solutions += 1;
         let (operator, held) = (&mut *self.operator, self.held.as_deref());
-        let solution = asked(monitor, |goes_on| operator.solve(held, forces, goes_on))?;
+        let solution = asked(self.monitor, |goes_on| operator.solve(held, forces, goes_on))?;
         Ok(solution.unwrap_or_default())
     }
 
     /// A solution with the held components at zero and no springs; where there is a preconditioner alone it leaves this
     /// part of the forces.
-    pub fn solve_to(
-        &mut self,
-        (forces, left): (&[f64], f64),
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<f64>, Ending> {
+    pub fn solve_to(&mut self, (forces, left): (&[f64], f64)) -> Result<Vec<f64>, Ending> {
         let Some(held_set) = self.held().filter(|_| !self.operator.is_exact()) else {
-            return self.solve(forces, monitor);
+            return self.solve(forces);
         };
-        let solution = asked(monitor, |goes_on| {
+        let solution = asked(self.monitor, |goes_on| {
             iterated(&mut *self.operator, &held_set, (forces, left), goes_on)
         })?;
         let (solution, count) = solution.unwrap_or_default();
@@ -123,7 +116,7 @@ impl<'b> Session<'b> {
 
 /// The result of a work of the operator, unless the monitor has ended it.
 fn asked<T>(
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
     work: impl FnOnce(GoesOn<'_>) -> Result<T, Error>,
 ) -> Result<T, Ending> {
     let mut stop = None;

@@ -37,7 +37,6 @@ use crate::linalg::gmres::gmres;
 use crate::linalg::least_squares::Columns;
 use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
 use crate::linalg::vector::opposite;
-use crate::monitor::Monitor;
 use crate::problem::{HeldSet, StiffnessOperator};
 use crate::solve::result::Ending;
 
@@ -105,18 +104,17 @@ impl<'a> System<'a> {
         bodies: &mut Session<'_>,
         (forcing, most): (f64, usize),
         known: &mut Vec<Moved>,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Step, Ending> {
         let first = self.first;
         let root = &self.equations.root[first..];
         let mut right = self.right();
         let lack = self.equations.length(self.lack);
         let mut sum = Moved { z: vec![0.0; self.lack.len()], forces: vec![0.0; right.len()] };
-        monitor.goes_on()?;
+        bodies.monitor.goes_on()?;
         if bodies.held().is_some() && bodies.operator.is_exact() {
             let mut all = opposite(&self.lack[..first]);
             all.extend_from_slice(&right);
-            sum = self.moved_by(bodies, &all, monitor)?;
+            sum = self.moved_by(bodies, &all)?;
             let rows = self.rows(&sum);
             right.iter_mut().zip(rows).for_each(|(right, row)| *right -= row);
         }
@@ -130,7 +128,7 @@ impl<'a> System<'a> {
         let (shares, left) = gmres(&right, forcing * lack, most, |v| {
             let mut all = vec![0.0; first];
             all.extend(v.iter().zip(root).map(|(v, root)| v * root));
-            let moved = self.moved_by(bodies, &all, monitor)?;
+            let moved = self.moved_by(bodies, &all)?;
             let mut row = image(&moved);
             taken_out.push(images.take_out(&mut row));
             known.push(moved);
@@ -186,12 +184,7 @@ impl<'a> System<'a> {
     }
 
     /// The displacements of forces on all unknowns.
-    fn moved_by(
-        &self,
-        bodies: &mut Session<'_>,
-        all: &[f64],
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Moved, Ending> {
+    fn moved_by(&self, bodies: &mut Session<'_>, all: &[f64]) -> Result<Moved, Ending> {
         let inner = self.equations.inner;
         let factor = bodies.held();
         let softens = factor.is_none() || !bodies.operator.is_sparse();
@@ -200,8 +193,8 @@ impl<'a> System<'a> {
             self.soften(&mut all[inner..]);
         }
         let mut z = match factor {
-            Some(factor) => self.by_factor(bodies, &factor, all, monitor)?,
-            None => self.by_inverse(bodies, all, monitor)?,
+            Some(factor) => self.by_factor(bodies, &factor, all)?,
+            None => self.by_inverse(bodies, all)?,
         };
         if softens {
             self.soften(&mut z[inner..]);
@@ -231,7 +224,6 @@ impl<'a> System<'a> {
         bodies: &mut Session<'_>,
         factor: &HeldSet,
         mut forces: Vec<f64>,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Vec<f64>, Ending> {
         let inner = self.equations.inner;
         let mut released = vec![0.0; forces.len()];
@@ -239,7 +231,7 @@ impl<'a> System<'a> {
             let asked = bodies.product(&released)?;
             forces.iter_mut().zip(asked).for_each(|(force, asked)| *force -= asked);
         }
-        let mut z = bodies.solve(&forces, monitor)?;
+        let mut z = bodies.solve(&forces)?;
         z.iter_mut().zip(&released).for_each(|(z, released)| *z += released);
         Ok(z)
     }
@@ -264,16 +256,11 @@ impl<'a> System<'a> {
     }
 
     /// By the block of an inverse.
-    fn by_inverse(
-        &self,
-        bodies: &mut Session<'_>,
-        mut w: Vec<f64>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<f64>, Ending> {
+    fn by_inverse(&self, bodies: &mut Session<'_>, mut w: Vec<f64>) -> Result<Vec<f64>, Ending> {
         let held = (0..w.len()).filter(|&i| self.held_set.held[i]);
         let own: Vec<(usize, f64)> =
             held.map(|i| (i, std::mem::take(&mut w[i]) / self.unit(i))).collect();
-        let mut z = bodies.solve(&w, monitor)?;
+        let mut z = bodies.solve(&w)?;
         own.iter().for_each(|(i, displacement)| z[*i] = *displacement);
         Ok(z)
     }

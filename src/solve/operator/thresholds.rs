@@ -5,7 +5,6 @@
 use super::newton::{self, Tried, improve};
 use super::point::Equations;
 use crate::law::Contact;
-use crate::monitor::Monitor;
 use crate::problem::MatrixFree;
 use crate::solve::result::Ending;
 
@@ -16,7 +15,7 @@ const ROUNDS: usize = 4;
 const ROUGH: f64 = 1e-3;
 
 /// Goes on from a first try that has failed.
-pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+pub fn solve(tried: &mut Tried<'_, '_>) -> Result<(), Ending> {
     let Tried { equations, bodies, start, best } = tried;
     if !equations.contact.is_coupled() {
         return Ok(());
@@ -28,12 +27,12 @@ pub fn solve(tried: &mut Tried<'_, '_>, monitor: &mut Monitor<'_>) -> Result<(),
         let root = equations.root.clone();
         let given = Equations { contact: &contact, root, tolerance: ROUGH, ..**equations };
         let from = given.held_at(point.at, bodies)?;
-        let between = newton::solve(&given, bodies, from, monitor)?;
+        let between = newton::solve(&given, bodies, from)?;
         if let Ending::Stopped(stop) = between.ending {
             return Err(stop.into());
         }
         point = equations.held_at(between.point.at, bodies)?;
-        if improve(best, newton::solve(equations, bodies, point.clone(), monitor)?) {
+        if improve(best, newton::solve(equations, bodies, point.clone())?) {
             break;
         }
     }

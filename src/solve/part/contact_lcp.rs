@@ -14,7 +14,7 @@ use crate::linalg::factor::cholesky_work;
 use crate::linalg::packed::PackedSymmetric;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::FreeBlock;
 use crate::solve::result::Ending;
 
@@ -43,7 +43,7 @@ const INDEFINITE: Ending = Ending::Stalled("K is not positive semi-definite");
 impl<'p> ContactLcp<'p> {
     /// Condenses what carries no contact force. `Err`: why that is impossible, which may be a proof
     /// that no equilibrium exists.
-    pub fn new(contact: &'p Contact<'p>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
+    pub fn new(contact: &'p Contact<'p>, monitor: &dyn Watch) -> Result<Self, Ending> {
         let (problem, dim) = (contact.problem(), contact.dim());
         let is_frictionless = contact.is_frictionless();
         let (mut normal, mut tangential, mut free) = (Vec::new(), Vec::new(), Vec::new());

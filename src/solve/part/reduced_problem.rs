@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::pair_data::PairData;
 use crate::law::{Piece, Vector};
 use crate::linalg::elimination::Elimination;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, Stiffness};
 use crate::solve::pieces::Equations;
 
@@ -39,7 +39,7 @@ impl<'w> ReducedProblem<'w> {
     pub fn new(
         whole: &'w Equations<'w>,
         held: &[Option<Piece>],
-        monitor: &mut Monitor<'_>,
+        monitor: &dyn Watch,
     ) -> Result<Option<Self>, Stop> {
         let (mut stuck, mut open, mut kept) = (vec![0.0; whole.root.len()], Vec::new(), Vec::new());
         for (pair, (piece, law)) in held.iter().zip(whole.laws.iter()).enumerate() {

@@ -16,7 +16,7 @@
 use super::homotopy::{Homotopy, PathPoint, Value};
 use crate::law::{Boundary, Piece, Vector};
 use crate::linalg::tolerances::SINGULAR;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::pieces::{Border, System};
 use crate::solve::result::Ending;
 
@@ -55,6 +55,7 @@ const AWAY: f64 = 1e11;
 /// A curve on the way from `s = 0` to `s = 1`.
 pub struct Curve<'h> {
     homotopy: &'h Homotopy<'h>,
+    monitor: &'h dyn Watch,
     /// Most distance from the predicted place, relative to the step.
     deviation: f64,
     pieces: Vec<Piece>,
@@ -82,22 +83,27 @@ enum Condition {
 
 impl<'h> Curve<'h> {
     /// The curve that begins at `start`, the base of the homotopy.
-    pub fn new(homotopy: &'h Homotopy<'h>, start: Vec<Vector>, deviation: f64) -> Self {
+    pub fn new(
+        homotopy: &'h Homotopy<'h>,
+        start: Vec<Vector>,
+        deviation: f64,
+        monitor: &'h dyn Watch,
+    ) -> Self {
         let pieces = homotopy.equations.pieces(&start);
-        Curve { homotopy, deviation, pieces, place: PathPoint { y: start, s: 0.0 }, systems: 0 }
+        let place = PathPoint { y: start, s: 0.0 };
+        Curve { homotopy, monitor, deviation, pieces, place, systems: 0 }
     }
 
     /// Follows the curve to `s = 1`.
-    pub fn follow(&mut self, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    pub fn follow(&mut self) -> Result<(), Ending> {
         let pairs = self.pieces.len();
         let most = LEAST_SYSTEMS.max(SYSTEMS_PER_PAIR * pairs) as u64;
         let mut border = PathPoint::of_s(pairs);
         let mut step = f64::INFINITY;
         while self.systems <= most {
-            let mut local = self.local(&border, monitor)?;
+            let mut local = self.local(&border)?;
             let size = 1.0 + self.homotopy.norm(&self.place);
-            let (place, condition, length) =
-                self.advance(&mut local, step.min(LONGEST * size), monitor)?;
+            let (place, condition, length) = self.advance(&mut local, step.min(LONGEST * size))?;
             self.place = place;
             border = self.homotopy.dual(&local.tangent);
             match condition {
@@ -121,7 +127,6 @@ impl<'h> Curve<'h> {
         &mut self,
         local: &mut Local,
         step: f64,
-        monitor: &mut Monitor<'_>,
     ) -> Result<(PathPoint, Condition, f64), Ending> {
         let tangent = local.tangent.clone();
         let (leave, pair, boundary) = self.exit(&tangent);
@@ -139,7 +144,7 @@ impl<'h> Curve<'h> {
                 (Condition::Plane { normal, through: predicted.clone() }, 1.0)
             };
             let crossed = (length == leave).then_some((pair, boundary));
-            if let Some(place) = self.correct(local, predicted.clone(), &condition, monitor)? {
+            if let Some(place) = self.correct(local, predicted.clone(), &condition)? {
                 let deviation = self.homotopy.norm(&predicted.to(&place));
                 let most = self.deviation * reach * length.max(ROUNDING_OF_PLACE);
                 if deviation <= most && self.is_inside(&place, crossed) {
@@ -152,13 +157,13 @@ impl<'h> Curve<'h> {
     }
 
     /// Factorises at the place of the curve with the border `normal`, and finds the tangent.
-    fn local(&mut self, border: &PathPoint, monitor: &mut Monitor<'_>) -> Result<Local, Ending> {
+    fn local(&mut self, border: &PathPoint) -> Result<Local, Ending> {
         let value = self.homotopy.value(&self.pieces, &self.place);
         if value.stretch > AWAY * self.homotopy.size {
             return Err(Ending::Stalled("the displacements run away on the path of solutions"));
         }
         let place = self.place.clone();
-        self.factorised(&place, &value, border, monitor)?.ok_or(Ending::Singular)
+        self.factorised(&place, &value, border)?.ok_or(Ending::Singular)
     }
 
     fn factorised(
@@ -166,12 +171,11 @@ impl<'h> Curve<'h> {
         place: &PathPoint,
         value: &Value,
         border: &PathPoint,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Option<Local>, Ending> {
-        monitor.step()?;
+        self.monitor.step()?;
         let equations = self.homotopy.equations;
         let pairs = equations.linearised(&self.pieces, &place.y);
-        monitor.affords(System::work(equations, &pairs))?;
+        self.monitor.affords(System::work(equations, &pairs))?;
         self.systems += 1;
         let border = Border {
             rate: &value.rate,
@@ -179,7 +183,7 @@ impl<'h> Curve<'h> {
             along: border.s,
             unit: self.homotopy.size.recip(),
         };
-        let (pairs, asking) = ((pairs, place.s), &mut monitor.asking());
+        let (pairs, asking) = ((pairs, place.s), &mut self.monitor.asking());
         let system = System::new(equations, pairs, Some(&border), SINGULAR, asking);
         let Some(mut system) = system else { return Ok(None) };
         let nothing = vec![0.0; value.lack.len()];
@@ -196,13 +200,12 @@ impl<'h> Curve<'h> {
         local: &mut Local,
         mut place: PathPoint,
         condition: &Condition,
-        monitor: &mut Monitor<'_>,
     ) -> Result<Option<PathPoint>, Ending> {
         let mut fresh: Option<Local> = None;
         let mut refactorisations = 0;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
-            monitor.goes_on()?;
+            self.monitor.goes_on()?;
             let value = self.homotopy.value(&self.pieces, &place);
             let (miss, normal) = self.miss(condition, &place);
             let rounding = f64::EPSILON * (value.lack.len() as f64).sqrt() * value.stretch;
@@ -217,7 +220,7 @@ impl<'h> Curve<'h> {
                 }
                 refactorisations += 1;
                 let border = self.homotopy.dual(&local.tangent);
-                fresh = self.factorised(&place, &value, &border, monitor)?;
+                fresh = self.factorised(&place, &value, &border)?;
                 if fresh.is_none() {
                     return Ok(None);
                 }

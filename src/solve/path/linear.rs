@@ -90,35 +90,31 @@ use super::linear_walk::{LOST, Walk};
 use crate::counters::count;
 use crate::law::references;
 use crate::linalg::vector::opposite;
-use crate::monitor::Monitor;
 use crate::solve::newton::{from_pieces, solve_part};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid;
 
 /// Solves a problem in the plane. An iteration is an event: a pair that passes from one piece to the next.
-pub fn linear(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn linear(call: &Call<'_>) -> Candidate {
     if !call.contact.is_coupled() {
-        return solve(call, with_given_thresholds(), monitor);
+        return solve(call, with_given_thresholds());
     }
-    match on_uncertain_pairs(call, monitor) {
+    match on_uncertain_pairs(call) {
         Ok(candidate) if candidate.is_settled(call.contact, call.settings.tolerance) => candidate,
-        Ok(candidate) => solve(&call.from(candidate.d()), &ATTEMPTS, monitor),
-        Err(d) => solve(&call.from(&d), &ATTEMPTS, monitor),
+        Ok(candidate) => solve(&call.from(candidate.d()), &ATTEMPTS),
+        Err(d) => solve(&call.from(&d), &ATTEMPTS),
     }
 }
 
 /// Solves by walks on the pairs in question. `Err`: these are not few, or no walk arrives; how far the
 /// displacements have come.
-fn on_uncertain_pairs(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Vec<f64>> {
+fn on_uncertain_pairs(call: &Call<'_>) -> Result<Candidate, Vec<f64>> {
     let mut skipped = 1;
-    let mut core = |part: &Call<'_>, monitor: &mut Monitor<'_>| {
-        solve(part, &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..], monitor)
-    };
-    solve_part(call, monitor, &mut core)
+    solve_part(call, &mut |part| solve(part, &ON_UNCERTAIN_PAIRS[std::mem::take(&mut skipped)..]))
 }
 
-fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Candidate {
+fn solve(call: &Call<'_>, attempts: &[Attempt]) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
     let equations = Equations::of(contact);
     // r = f - K (gap, slip0): the loads on the body that touches all its obstacles.
@@ -128,8 +124,8 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
     let mut best = Candidate::without_displacements(contact, LOST);
     let mut effort = Effort::default();
     for (number, &attempt) in attempts.iter().enumerate() {
-        let y = starts.next(attempt, monitor);
-        let mut walk = match Walk::new(&equations, &load, &y, monitor) {
+        let y = starts.next(attempt);
+        let mut walk = match Walk::new(&equations, &load, &y, call.monitor) {
             Ok(walk) => walk,
             Err(ending @ Ending::Stopped(_)) => {
                 best.ending = ending;
@@ -137,8 +133,8 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
             }
             Err(_) => continue,
         };
-        let end = walk.follow(attempt.rules(y.len()), monitor);
-        let mut candidate = ended(call, &walk, end, monitor);
+        let end = walk.follow(attempt.rules(y.len()));
+        let mut candidate = ended(call, &walk, end);
         effort.factorisations += walk.factorisations + candidate.effort.factorisations;
         candidate.effort = effort;
         let settled = candidate.is_settled(contact, settings.tolerance);
@@ -159,19 +155,14 @@ fn solve(call: &Call<'_>, attempts: &[Attempt], monitor: &mut Monitor<'_>) -> Ca
 }
 
 /// The candidate of a walk that has ended.
-fn ended(
-    call: &Call<'_>,
-    walk: &Walk<'_>,
-    end: Result<(), Ending>,
-    monitor: &mut Monitor<'_>,
-) -> Candidate {
+fn ended(call: &Call<'_>, walk: &Walk<'_>, end: Result<(), Ending>) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        Ok(()) => return from_pieces(&call.from(&d), &walk.pieces, monitor),
+        Ok(()) => return from_pieces(&call.from(&d), &walk.pieces),
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Err(Ending::Recession(motion)) => {
-            Ending::Recession(rigid::escape_behind_others(call, monitor).unwrap_or(motion))
+            Ending::Recession(rigid::escape_behind_others(call).unwrap_or(motion))
         }
         Err(ending) => ending,
     };
@@ -182,6 +173,7 @@ fn ended(
 mod tests {
     use super::*;
     use crate::law::Contact;
+    use crate::monitor::Monitor;
     use crate::problem::{ContactProblem, FrictionLaw};
     use crate::settings::Settings;
     use crate::solve::path::linear_start::{Start, walk};
@@ -214,9 +206,9 @@ mod tests {
             let of_pairs = (&gap[..], FrictionLaw::Coulomb(&mu), Some(&slip[..]));
             let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
-            let mut monitor = Monitor::new(&settings, None);
+            let monitor = Monitor::new(&settings, None);
             let attempt = [walk(30, Start::Sure, 10.0)];
-            let candidate = solve(&Call::new(&contact, &settings), &attempt, &mut monitor);
+            let candidate = solve(&Call::new(&contact, &settings, &monitor), &attempt);
             let holds = candidate.certificate(&contact).holds(settings.tolerance);
             assert!(holds, "seed {seed}: {:?}", candidate.ending);
         }
@@ -252,9 +244,9 @@ mod tests {
             let of_pairs = (&gap[..], FrictionLaw::Coulomb(&mu), Some(&slip[..]));
             let problem = ContactProblem::of_test(2, (&stiffness, &load), of_pairs);
             let (contact, settings) = (Contact::new(&problem), Settings::default());
-            let mut monitor = Monitor::new(&settings, None);
-            let call = Call::new(&contact, &settings);
-            if let Ok(candidate) = on_uncertain_pairs(&call, &mut monitor) {
+            let monitor = Monitor::new(&settings, None);
+            let call = Call::new(&contact, &settings, &monitor);
+            if let Ok(candidate) = on_uncertain_pairs(&call) {
                 assert!(candidate.is_settled(&contact, settings.tolerance), "seed {seed}");
                 settled += 1;
             }

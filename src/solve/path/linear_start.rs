@@ -3,9 +3,8 @@
 
 use super::curved::PERTURBATION;
 use super::linear_walk::Rules;
-use crate::law::{Contact, PairLaw, Planar};
+use crate::law::{PairLaw, Planar};
 use crate::linalg::perturbation::Perturbation;
-use crate::monitor::Monitor;
 use crate::solve::result::Call;
 use crate::solve::sweeps::sweep_pairs;
 
@@ -95,7 +94,7 @@ const VARIED: f64 = 0.1;
 
 /// The sweeps before the walks, and their randomness.
 pub struct Starts<'p> {
-    contact: &'p Contact<'p>,
+    call: Call<'p>,
     root: &'p [f64],
     /// Displacements after the sweeps, and their force; at first those of the start, which may break the law.
     d: Vec<f64>,
@@ -110,20 +109,20 @@ impl<'p> Starts<'p> {
     pub fn new(call: &Call<'p>, root: &'p [f64], size: f64) -> Self {
         let (contact, d) = (call.contact, call.start_or_zero());
         let (force, mean) = (contact.problem().force(&d), size / (root.len() as f64).sqrt());
-        Starts { contact, root, d, force, mean, random: Perturbation::new(0) }
+        Starts { call: *call, root, d, force, mean, random: Perturbation::new(0) }
     }
 
     /// Sweeps on while there is time; then the coordinates at which a walk starts.
-    pub fn next(&mut self, attempt: Attempt, monitor: &mut Monitor<'_>) -> Vec<Planar> {
-        let (laws, matrix) = (self.contact.pairs(), self.contact.problem().stiffness());
+    pub fn next(&mut self, attempt: Attempt) -> Vec<Planar> {
+        let (laws, matrix) = (self.call.contact.pairs(), self.call.contact.problem().stiffness());
         if attempt.sweeps > 0 {
-            self.d = self.contact.admissible(&self.d);
-            self.force = self.contact.problem().force(&self.d);
+            self.d = self.call.contact.admissible(&self.d);
+            self.force = self.call.contact.problem().force(&self.d);
         }
         let iterate = (&mut self.d[..], &mut self.force[..]);
-        sweep_pairs(laws, matrix, iterate, (attempt.sweeps, 1.0), monitor);
+        sweep_pairs(laws, matrix, iterate, (attempt.sweeps, 1.0), self.call.monitor);
         let swept = self.swept();
-        let pairs = self.contact.pairs().iter().zip(swept).zip(self.root.chunks_exact(2));
+        let pairs = self.call.contact.pairs().iter().zip(swept).zip(self.root.chunks_exact(2));
         let start = |((law, y), root): ((&PairLaw, Planar), &[f64])| match attempt.start {
             Start::Swept => y,
             Start::Sure => law.sure_start(y),
@@ -144,6 +143,6 @@ impl<'p> Starts<'p> {
             let y = law.released(d, force, part * root[0] * (2.0 + random.next()));
             std::array::from_fn(|c| y[c] + part * root[c] * random.next())
         };
-        self.contact.each(&self.d, &self.force).map(moved).collect()
+        self.call.contact.each(&self.d, &self.force).map(moved).collect()
     }
 }

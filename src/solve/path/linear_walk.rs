@@ -2,7 +2,7 @@
 
 use crate::law::{Linearised, Piece, PieceExit, Planar, by_pairs};
 use crate::linalg::vector::largest_of;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::pieces::{Equations, System, Updated};
 use crate::solve::result::Ending;
 
@@ -36,6 +36,7 @@ pub const LOST: Ending = Ending::Stalled("the path does not arrive");
 /// A walk: `K v + P = r_s` for all `s` on the way, `r_s = r_0 + s (r - r_0)`.
 pub struct Walk<'p> {
     equations: &'p Equations<'p>,
+    monitor: &'p dyn Watch,
     /// Length of the loads `r` of the problem.
     size: f64,
     system: Updated<'p>,
@@ -59,7 +60,7 @@ impl<'p> Walk<'p> {
         equations: &'p Equations<'p>,
         load: &[f64],
         start: &[Planar],
-        monitor: &mut Monitor<'_>,
+        monitor: &'p dyn Watch,
     ) -> Result<Self, Ending> {
         let (mut v, mut first, mut pieces) = (Vec::new(), Vec::new(), Vec::new());
         for (law, y) in equations.laws.iter().zip(start) {
@@ -75,6 +76,7 @@ impl<'p> Walk<'p> {
         let rate = system.solve(&change);
         Ok(Walk {
             equations,
+            monitor,
             size: equations.length(load),
             system,
             pieces,
@@ -89,9 +91,9 @@ impl<'p> Walk<'p> {
 
     /// Goes on to the loads of the problem, with the sign of `det J`: downwards at first where that is negative, and below the
     /// loads of the start if the way leads there. `Err`: it ends elsewhere, as on a ray with a rigid motion.
-    pub fn follow(&mut self, rules: Rules, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    pub fn follow(&mut self, rules: Rules) -> Result<(), Ending> {
         for _ in 0..rules.most {
-            monitor.step()?;
+            self.monitor.step()?;
             let sign = f64::from(self.system.sign());
             let exit = self.exits(sign).min_by(|a, b| a.1.step.total_cmp(&b.1.step));
             let left = if sign > 0.0 { 1.0 - self.s } else { f64::INFINITY };
@@ -112,7 +114,7 @@ impl<'p> Walk<'p> {
             let Some((pair, exit)) = exit.filter(|(_, exit)| exit.step < left) else {
                 return Ok(());
             };
-            self.pass(pair, &exit, rules, monitor)?;
+            self.pass(pair, &exit, rules)?;
         }
         Err(LOST)
     }
@@ -128,18 +130,12 @@ impl<'p> Walk<'p> {
     }
 
     /// Passes the boundary of a pair.
-    fn pass(
-        &mut self,
-        pair: usize,
-        exit: &PieceExit,
-        rules: Rules,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Ending> {
+    fn pass(&mut self, pair: usize, exit: &PieceExit, rules: Rules) -> Result<(), Ending> {
         let beyond = self.equations.laws[pair].linearised_on(exit.beyond);
         if self.y.len() > IN_CACHE && self.system.lacks_columns(pair, &beyond) {
-            self.prepare((pair, beyond), monitor)?;
+            self.prepare((pair, beyond))?;
         }
-        let change = self.system.change(pair, beyond, &mut monitor.asking()).ok_or(LOST)?;
+        let change = self.system.change(pair, beyond, &mut self.monitor.asking()).ok_or(LOST)?;
         self.pieces[pair] = exit.beyond;
         let singular = change.pivot.abs() < SMALL_PIVOT;
         if !singular {
@@ -148,17 +144,13 @@ impl<'p> Walk<'p> {
             return Err(Ending::Recession(motion));
         }
         if singular || self.system.age() >= rules.age {
-            self.refactorise(monitor)?;
+            self.refactorise()?;
         }
         Ok(())
     }
 
     /// Makes the columns of the change of a pair with those of the pairs that come to their boundaries next.
-    fn prepare(
-        &mut self,
-        first: (usize, Linearised),
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Ending> {
+    fn prepare(&mut self, first: (usize, Linearised)) -> Result<(), Ending> {
         let mut exits: Vec<(usize, PieceExit)> = self
             .exits(f64::from(self.system.sign()))
             .filter(|(pair, _)| *pair != first.0)
@@ -168,13 +160,13 @@ impl<'p> Walk<'p> {
         let others =
             exits.into_iter().map(|(pair, exit)| (pair, laws[pair].linearised_on(exit.beyond)));
         let likely: Vec<(usize, Linearised)> = std::iter::once(first).chain(others).collect();
-        self.system.prepare(&likely, BLOCK, &mut monitor.asking()).ok_or(LOST)
+        self.system.prepare(&likely, BLOCK, &mut self.monitor.asking()).ok_or(LOST)
     }
 
     /// Factorises the system of today's pieces, and puts the coordinates back on the path.
-    fn refactorise(&mut self, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
+    fn refactorise(&mut self) -> Result<(), Ending> {
         self.factorisations += 1;
-        self.system = factorised(self.equations, &self.pieces, monitor)?;
+        self.system = factorised(self.equations, &self.pieces, self.monitor)?;
         // J y = r_s - c + K c_t / k, with P = D y + c on a piece.
         let mut side: Vec<f64> =
             self.first.iter().zip(&self.change).map(|(r, change)| r + self.s * change).collect();
@@ -218,7 +210,7 @@ impl<'p> Walk<'p> {
 fn factorised<'p>(
     equations: &'p Equations<'p>,
     pieces: &[Piece],
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Updated<'p>, Ending> {
     let pairs = equations.laws.iter().zip(pieces);
     let pairs: Vec<Linearised> = pairs.map(|(law, piece)| law.linearised_on(*piece)).collect();
@@ -230,6 +222,7 @@ fn factorised<'p>(
 mod tests {
     use super::*;
     use crate::law::Contact;
+    use crate::monitor::Monitor;
     use crate::problem::{ContactProblem, FrictionLaw};
     use crate::settings::Settings;
 
@@ -246,13 +239,13 @@ mod tests {
         let equations = Equations::of(&contact);
         let (stuck, slipping, open) = ([1.0, 1.5], [0.5, 1.5], [-1.0, 2.0]);
         for (start, sign, events) in [(stuck, 1.0, 2), (slipping, -1.0, 1), (open, 1.0, 0)] {
-            let mut monitor = Monitor::new(&settings, None);
-            let walk = Walk::new(&equations, &load, &[start], &mut monitor);
+            let monitor = Monitor::new(&settings, None);
+            let walk = Walk::new(&equations, &load, &[start], &monitor);
             let Ok(mut walk) = walk else { panic!("each piece is regular") };
             // K v + P is (1, 1.5) at all three; powers of two and few digits leave no rounding.
             assert_eq!(walk.first, [1.0, 1.5]);
             assert_eq!(f64::from(walk.system.sign()), sign);
-            let end = walk.follow(Rules { most: 10, age: 60 }, &mut monitor);
+            let end = walk.follow(Rules { most: 10, age: 60 });
             assert_eq!(end, Ok(()), "from {start:?}");
             // A step to each event, and one to the end.
             assert_eq!(monitor.iterations(), events + 1, "from {start:?}");

@@ -9,7 +9,7 @@ use crate::law::Linearised;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{first_not_finite, norm_inf, opposite};
 use crate::linalg::watched::GoesOn;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::Remembered;
 use crate::solve::result::Ending;
 
@@ -33,6 +33,7 @@ struct Left {
 /// Systems of the same equations.
 pub struct Systems<'e> {
     equations: &'e Equations<'e>,
+    monitor: &'e dyn Watch,
     /// The last system. In space it is one of a point, and serves others near by as long as steps with it converge.
     last: Option<Amended>,
     /// The solution before, if the last system is what it has left.
@@ -43,11 +44,11 @@ pub struct Systems<'e> {
 
 impl<'e> Systems<'e> {
     /// None yet, or the one that the problem before with the same matrix has left.
-    pub fn of(equations: &'e Equations<'e>) -> Self {
+    pub fn of(equations: &'e Equations<'e>, monitor: &'e dyn Watch) -> Self {
         let left = equations.remembered.and_then(Remembered::take::<Left>);
         let left = left.filter(|left| left.system.base.fits(equations));
         let (last, before) = left.map(|Left { system, solution }| (system, solution)).unzip();
-        Systems { equations, last, before, factorisations: 0 }
+        Systems { equations, monitor, last, before, factorisations: 0 }
     }
 
     /// The solution before, if `start` has its displacements: in small steps of the loads most pairs stay on its pieces.
@@ -83,18 +84,14 @@ impl<'e> Systems<'e> {
     ///
     /// # Errors
     /// It is singular, or there is no time for it.
-    pub fn go_to(
-        &mut self,
-        pairs: Vec<Linearised>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(), Ending> {
+    pub fn go_to(&mut self, pairs: Vec<Linearised>) -> Result<(), Ending> {
         let equations = self.equations;
         if self.are_of_pieces() && self.last.as_ref().is_some_and(|last| last.pairs() == pairs) {
             return Ok(());
         }
         let change = self.change_work(&pairs);
-        monitor.affords(change.unwrap_or_else(|| System::work(equations, &pairs)))?;
-        let goes_on = &mut monitor.asking();
+        self.monitor.affords(change.unwrap_or_else(|| System::work(equations, &pairs)))?;
+        let goes_on = &mut self.monitor.asking();
         if change.is_some()
             && let Some(system) = &mut self.last
             && system.go_to(equations, pairs.clone(), goes_on).is_some()

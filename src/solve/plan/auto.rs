@@ -11,7 +11,6 @@ use super::table::{MethodRow, Start, plan};
 use crate::counters::count;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::Monitor;
 use crate::settings::Method;
 use crate::solve::result::{
     Call, Candidate, Effort, Ending, Fallback, SecondSolution, Solution, Status, Uniqueness,
@@ -20,7 +19,7 @@ use crate::solve::result::{
 use crate::solve::{rigid, uniqueness};
 
 /// Solves by the first method whose result is certified.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+pub fn solve(call: &Call<'_>) -> Result<Solution, Error> {
     let contact = call.contact;
     let mut tried = Tried::default();
     for (place, row) in plan(contact).enumerate() {
@@ -29,7 +28,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
             (Start::Best, None) => continue,
             (Start::Own | Start::Nearest, _) => *call,
         };
-        let Some(candidate) = row.candidate(&from, monitor)? else { continue };
+        let Some(candidate) = row.candidate(&from)? else { continue };
         tried.count(&candidate.effort);
         if let Ending::RunsAway(motion) = &candidate.ending {
             tried.away = Some(motion.clone());
@@ -46,7 +45,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
                 tried.unstable = Some(solution);
             }
             _ if decided => {
-                tried.end(contact, &mut solution, monitor);
+                tried.end(call, &mut solution);
                 return Ok(solution);
             }
             _ => tried.keep(contact, row, unsolved.expect("a candidate that is no solution")),
@@ -60,7 +59,7 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Err
         let (method, candidate) = tried.best.take().expect("a plan has a method");
         certified(call, method, candidate)
     });
-    tried.end(contact, &mut solution, monitor);
+    tried.end(call, &mut solution);
     Ok(solution)
 }
 
@@ -93,18 +92,18 @@ impl Tried {
     }
 
     /// Tells in the last solution what came before it.
-    fn end(&mut self, contact: &Contact<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
+    fn end(&mut self, call: &Call<'_>, solution: &mut Solution) {
         solution.fallback = self.first;
         if let Some(motion) = self.away.take()
             && solution.status == Status::Stalled
         {
-            rigid::describe_run_away(contact, solution, motion);
+            rigid::describe_run_away(call.contact, solution, motion);
         }
         solution.factorisations = self.effort.factorisations;
         solution.refactorisations = self.effort.refactorisations;
         if let Some(other) = self.unstable.take()
             && solution.status == Status::Solved
-            && uniqueness::are_two(contact, solution, &other, monitor)
+            && uniqueness::are_two(call, solution, &other)
         {
             solution.uniqueness = Uniqueness::Several;
             solution.second = Some(Box::new(SecondSolution {

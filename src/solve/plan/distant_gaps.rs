@@ -11,7 +11,6 @@ use super::ties::without_ties;
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::{Contact, gaps_within_reach};
-use crate::monitor::Monitor;
 use crate::solve::result::{Call, Solution, Status, certified};
 
 /// How many times longer than the displacements that can be expected a gap must be to be left out. Weak
@@ -27,20 +26,20 @@ const FAR_OF_UNSOLVED: [f64; 2] = [1e3, 1e1];
 const ROUNDS: usize = 3;
 
 /// Solves by the method that is chosen, if it fits, or by the default; ties are taken out before.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
-    if let Some(found) = without_ties(call, solve, monitor) {
+pub fn solve(call: &Call<'_>) -> Result<Solution, Error> {
+    if let Some(found) = without_ties(call, solve) {
         return found;
     }
     let row = chosen(call.contact, call.settings.method)?;
-    if let Some(found) = without_obstacles(FAR, row, call, monitor) {
+    if let Some(found) = without_obstacles(FAR, row, call) {
         return found;
     }
-    let found = by_method(row, call, monitor);
+    let found = by_method(row, call);
     if row.is_none()
         && let Ok(Solution { status: Status::Stalled, .. }) = &found
     {
         for far in FAR_OF_UNSOLVED {
-            let other = without_obstacles(far, row, call, monitor).transpose()?;
+            let other = without_obstacles(far, row, call).transpose()?;
             if let Some(other) = other.filter(|other| other.status == Status::Solved) {
                 return Ok(other);
             }
@@ -54,7 +53,6 @@ fn without_obstacles(
     far: f64,
     row: Option<&MethodRow>,
     call: &Call<'_>,
-    monitor: &mut Monitor<'_>,
 ) -> Option<Result<Solution, Error>> {
     let contact = call.contact;
     let mut moved = Vec::new();
@@ -62,7 +60,7 @@ fn without_obstacles(
         let Some(gaps) = gaps_within_reach(contact, &moved, far) else { break };
         let problem = contact.problem().with_gaps(&gaps);
         let near = Call { contact: &Contact::new(&problem), ..*call };
-        let solution = match by_method(row, &near, monitor) {
+        let solution = match by_method(row, &near) {
             Ok(solution) => solution,
             failed => return Some(failed),
         };
@@ -83,15 +81,11 @@ fn without_obstacles(
 }
 
 /// Solves by the method of a row, or by the default.
-fn by_method(
-    row: Option<&MethodRow>,
-    call: &Call<'_>,
-    monitor: &mut Monitor<'_>,
-) -> Result<Solution, Error> {
+fn by_method(row: Option<&MethodRow>, call: &Call<'_>) -> Result<Solution, Error> {
     let Some(row) = row else {
-        return auto::solve(call, monitor);
+        return auto::solve(call);
     };
-    let candidate = row.candidate(call, monitor)?;
+    let candidate = row.candidate(call)?;
     let candidate = candidate.expect("a method that can be chosen has a candidate");
     Ok(certified(call, row.method, candidate))
 }

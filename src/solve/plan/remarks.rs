@@ -5,7 +5,6 @@ use crate::certificate::measure;
 use crate::law::{Contact, deepest_of_negative_gaps, friction_is_large, passes_gaps, size_of_gaps};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
-use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Relation};
 use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Call, Remarks, Solution, Status, Uniqueness};
@@ -82,28 +81,28 @@ fn passed<R: Relation>(problem: &ContactProblem<'_, R>, solution: &Solution) -> 
 
 /// Adds the remarks on a problem and its solution. With friction nothing is asked about free motions: that would cost a
 /// factorisation of every semi-definite problem.
-pub fn add_remarks(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
+pub fn add_remarks(call: &Call<'_>, solution: &mut Solution) {
     let (contact, problem) = (call.contact, call.contact.problem());
     let solved = solution.status == Status::Solved;
     let asked = solved && solution.uniqueness == Uniqueness::NotKnown && contact.is_frictionless();
     let Solution { d, certificate, definite, .. } = &*solution;
     let at = (d.as_slice(), certificate.states.as_slice());
     solution.remarks = Remarks {
-        free_motion: asked && moves_freely(contact, at, definite, monitor),
+        free_motion: asked && moves_freely(contact, at, definite, call.monitor),
         held_by_rounding: solved && is_held_by_rounding(contact, d, &certificate.force),
         needs_low_part: solved && needs_low_part(call, solution),
         gaps_passed: gaps_passed(problem, call.settings, solution),
         ..of_data(problem, d)
     };
     if solution.status == Status::Stalled && problem.is_symmetric() {
-        explain(contact, solution, monitor);
+        explain(call, solution);
     }
 }
 
 /// Adds to the sentence of a problem that is not solved what to look at, if contact alone holds a body, or if nothing but
 /// rounding may hold one: there may be no equilibrium.
-fn explain(contact: &Contact<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
-    let problem = contact.problem();
+fn explain(call: &Call<'_>, solution: &mut Solution) {
+    let (problem, monitor) = (call.contact.problem(), call.monitor);
     if solution.escape.is_none() && RigidMotions::of(problem, monitor).is_some() {
         solution.say(&format!("contact alone holds a body: {CAUSES}"));
     }

@@ -3,7 +3,7 @@
 use crate::counters::count;
 use crate::error::{Argument, Error};
 use crate::law::Contact;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Stop;
 use crate::settings::Method;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid::{self, Balance, leave_idle_motion};
@@ -20,28 +20,24 @@ pub struct MethodRow {
     /// Why the method does not fit a problem; `None` if it fits.
     refuses: fn(&Contact<'_>) -> Option<String>,
     /// Runs the method; `None` if there is nothing for it to do.
-    run: fn(&Call<'_>, &mut Monitor<'_>) -> Result<Option<Candidate>, Error>,
+    run: fn(&Call<'_>) -> Result<Option<Candidate>, Error>,
 }
 
 impl MethodRow {
     /// Runs the method on a problem that it fits, and refines what it finds; `None` if there is nothing for it to do.
-    pub fn candidate(
-        &self,
-        call: &Call<'_>,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Option<Candidate>, Error> {
+    pub fn candidate(&self, call: &Call<'_>) -> Result<Option<Candidate>, Error> {
         let contact = call.contact;
         if contact.pairs().is_empty() {
             return Ok(Some(Candidate::without_displacements(contact, Ending::Done)));
         }
-        let mut found = (self.run)(call, monitor)?;
+        let mut found = (self.run)(call)?;
         let Some(candidate) = &mut found else { return Ok(None) };
-        leave_idle_motion(call, candidate, monitor);
-        newton::refine_to_tolerance(call, candidate, monitor);
+        leave_idle_motion(call, candidate);
+        newton::refine_to_tolerance(call, candidate);
         // To a method a factorisation that was ended is that of a singular or indefinite matrix, and a question that was
         // ended is one without an answer.
         if matches!(candidate.ending, Ending::Singular | Ending::Cycle | Ending::Stalled(_))
-            && let Some(stop) = monitor.stop()
+            && let Some(stop) = call.monitor.stop()
         {
             candidate.ending = Ending::Stopped(stop);
         }
@@ -123,19 +119,19 @@ const NEWTON: MethodRow = MethodRow {
     name: "Newton",
     start: Start::Own,
     refuses: |_| None,
-    run: |call, monitor| Ok(Some(newton_twice(call, monitor))),
+    run: |call| Ok(Some(newton_twice(call))),
 };
 
 /// Newton's method from the start of the call, and from nothing where that leads nowhere: where loads turn back, beams are
 /// solved from nothing in some systems, and from the displacements before by the path alone.
-fn newton_twice(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+fn newton_twice(call: &Call<'_>) -> Candidate {
     let (contact, tolerance) = (call.contact, call.settings.tolerance);
-    let found = newton::newton(call, monitor);
+    let found = newton::newton(call);
     let is_over = found.ending == Ending::Done || found.is_settled(contact, tolerance);
     if is_over || call.start.is_none() {
         return found;
     }
-    let alone = newton::newton(&Call { start: None, ..*call }, monitor);
+    let alone = newton::newton(&Call { start: None, ..*call });
     count("Newton from nothing", 0, alone.ending == Ending::Done);
     let systems = found.effort.factorisations + alone.effort.factorisations;
     let is_nearer = alone.certificate(contact).eta < found.certificate(contact).eta;
@@ -150,10 +146,10 @@ const BALANCE: MethodRow = MethodRow {
     name: "balance of rigid motions",
     start: Start::Best,
     refuses: unsymmetric,
-    run: |call, monitor| {
+    run: |call| {
         let ended =
             |motion| Candidate::without_displacements(call.contact, Ending::Recession(motion));
-        Ok(rigid::escape(call.contact, monitor).map(ended))
+        Ok(rigid::escape(call.contact, call.monitor).map(ended))
     },
 };
 
@@ -163,22 +159,15 @@ const SPRINGS: MethodRow = MethodRow {
     name: "springs",
     start: Start::Best,
     refuses: unsymmetric,
-    run: |call, monitor| springs(call, false, monitor),
+    run: |call| springs(call, false),
 };
 
-const SPRINGS_BY_PATH: MethodRow = MethodRow {
-    name: "springs by the path",
-    run: |call, monitor| springs(call, true, monitor),
-    ..SPRINGS
-};
+const SPRINGS_BY_PATH: MethodRow =
+    MethodRow { name: "springs by the path", run: |call| springs(call, true), ..SPRINGS };
 
-fn springs(
-    call: &Call<'_>,
-    by_path: bool,
-    monitor: &mut Monitor<'_>,
-) -> Result<Option<Candidate>, Error> {
-    let Some(balance) = Balance::new(call.contact, monitor) else { return Ok(None) };
-    let mut candidate = proximal::let_go(call, by_path, monitor);
+fn springs(call: &Call<'_>, by_path: bool) -> Result<Option<Candidate>, Error> {
+    let Some(balance) = Balance::new(call.contact, call.monitor) else { return Ok(None) };
+    let mut candidate = proximal::let_go(call, by_path);
     if let Ending::RunsAway(motion) = candidate.ending {
         candidate.ending = balance.ending_away(&motion);
     }
@@ -193,9 +182,9 @@ const PATH: MethodRow = MethodRow {
     name: "path",
     start: Start::Own,
     refuses: |_| None,
-    run: |call, monitor| {
+    run: |call| {
         let by = if call.contact.dim() == 2 { path::linear } else { path::curved };
-        Ok(Some(by(call, monitor)))
+        Ok(Some(by(call)))
     },
 };
 
@@ -215,9 +204,9 @@ const BLOCK_PIVOTING: MethodRow = MethodRow {
         };
         unsymmetric(contact).or_else(with_friction)
     },
-    run: |call, monitor| {
-        let of_one_pair = newton::of_one_pair(call, monitor);
-        Ok(Some(of_one_pair.unwrap_or_else(|| lcp::block_pivoting(call, monitor))))
+    run: |call| {
+        let of_one_pair = newton::of_one_pair(call);
+        Ok(Some(of_one_pair.unwrap_or_else(|| lcp::block_pivoting(call))))
     },
 };
 
@@ -231,7 +220,7 @@ const LEMKE: MethodRow = MethodRow {
             "settings: Lemke's method is for frictionless contact, and for friction in 2D";
         unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
     },
-    run: |call, monitor| lcp::lemke(call, monitor).map(Some),
+    run: |call| lcp::lemke(call).map(Some),
 };
 
 const NESTED_SWEEPS: MethodRow = MethodRow {
@@ -239,11 +228,11 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
     name: "nested sweeps",
     start: Start::Own,
     refuses: unsymmetric,
-    run: |call, monitor| {
+    run: |call| {
         if call.contact.is_coupled() {
-            return for_a_while(call, monitor, |monitor| sweeps::nested(call, monitor));
+            return for_a_while(call, || sweeps::nested(call));
         }
-        single_sweeps(call, monitor)
+        single_sweeps(call)
     },
 };
 
@@ -265,10 +254,10 @@ const DIAGONAL_SWEEPS: MethodRow = MethodRow {
 };
 
 /// Sweeps that update thresholds as they go, or have given ones.
-fn single_sweeps(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Option<Candidate>, Error> {
-    for_a_while(call, monitor, |monitor| match call.contact.is_frictionless() {
-        true => sweeps::frictionless(call, monitor),
-        false => sweeps::single(call, monitor),
+fn single_sweeps(call: &Call<'_>) -> Result<Option<Candidate>, Error> {
+    for_a_while(call, || match call.contact.is_frictionless() {
+        true => sweeps::frictionless(call),
+        false => sweeps::single(call),
     })
 }
 
@@ -279,13 +268,12 @@ const LATER_SWEEPS: u64 = 5000;
 /// Runs sweeps; in a plan only for a while.
 fn for_a_while(
     call: &Call<'_>,
-    monitor: &mut Monitor<'_>,
-    sweeps: impl FnOnce(&mut Monitor<'_>) -> Candidate,
+    sweeps: impl FnOnce() -> Candidate,
 ) -> Result<Option<Candidate>, Error> {
     if call.is_chosen() {
-        return Ok(Some(sweeps(monitor)));
+        return Ok(Some(sweeps()));
     }
-    let (mut candidate, used_up) = monitor.within(LATER_SWEEPS, sweeps);
+    let (mut candidate, used_up) = call.monitor.within(LATER_SWEEPS, sweeps);
     if candidate.ending == Ending::Stopped(Stop::IterationLimit) && !used_up {
         candidate.ending = Ending::Stalled("no method converges");
     }

@@ -15,7 +15,6 @@ use crate::certificate::{Certificate, is_escape_of, measure};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, FrictionLaw, Remembered};
 use crate::settings::Settings;
 use crate::solve::newton::refine_to_tolerance;
@@ -28,16 +27,12 @@ pub fn memory_of_ties(law: FrictionLaw<'_>, unknowns: usize) -> u64 {
 }
 
 /// Solves a problem with ties, `solve` the problem of the other pairs; `None`: no pair is tied.
-pub fn without_ties(
-    call: &Call<'_>,
-    solve: Solve,
-    monitor: &mut Monitor<'_>,
-) -> Option<Result<Solution, Error>> {
-    call.contact.ties().next().map(|_| on_others(call, solve, monitor))
+pub fn without_ties(call: &Call<'_>, solve: Solve) -> Option<Result<Solution, Error>> {
+    call.contact.ties().next().map(|_| on_others(call, solve))
 }
 
 /// Solves a problem of which pairs are tied.
-fn on_others(call: &Call<'_>, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+fn on_others(call: &Call<'_>, solve: Solve) -> Result<Solution, Error> {
     let whole = call.contact.problem();
     let others = Others::of(call.contact);
     let settings = Settings { proof: false, ..call.settings.clone() };
@@ -46,9 +41,9 @@ fn on_others(call: &Call<'_>, solve: Solve, monitor: &mut Monitor<'_>) -> Result
         let problem = others.problem(whole);
         let contact = &Contact::new(&problem);
         let start = start.as_deref().filter(|_| !contact.is_at_rest());
-        solve(&Call { contact, settings: &settings, start }, monitor)?
+        solve(&Call { contact, settings: &settings, start, ..*call })?
     };
-    let mut solution = others.on_whole(call, found, monitor);
+    let mut solution = others.on_whole(call, found);
     // What proves something of the others may prove nothing of the whole.
     let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
     if solution.status == Status::NoEquilibrium
@@ -147,7 +142,7 @@ impl Others {
     }
 
     /// The solution on these pairs, as a result of the whole problem.
-    fn on_whole(&self, call: &Call<'_>, found: Solution, monitor: &mut Monitor<'_>) -> Solution {
+    fn on_whole(&self, call: &Call<'_>, found: Solution) -> Solution {
         let (contact, settings) = (call.contact, call.settings);
         let (d, low) = (self.displacements(&found.d), self.spread(&found.d_low));
         let force = contact.problem().force_of_parts(&d, &low);
@@ -155,7 +150,7 @@ impl Others {
         let at = Candidate::of_displacements(contact, d.clone(), ending);
         let mut at = at.moved_to(d, low, force);
         // Where ties move bodies far, the loads of the other pairs are rounded beside their forces.
-        refine_to_tolerance(call, &mut at, monitor);
+        refine_to_tolerance(call, &mut at);
         let certificate = at.certificate(contact).clone().with_rounding(settings.tolerance);
         let holds = certificate.holds(settings.tolerance);
         let (status, message) = match found.status {

@@ -3,7 +3,7 @@
 use super::rounds::{COMPLIANCE, InSeries, RANGE, changed};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{Stop, Watch};
 use crate::problem::{Flexibility, Relation};
 
 /// Bodies of a flexibility, with the springs of some rounds.
@@ -13,6 +13,7 @@ pub struct Springs<'p> {
     stiffness: Vec<f64>,
     /// No round is left to softer springs.
     by_all_means: bool,
+    monitor: &'p dyn Watch,
 }
 
 impl<'p> Springs<'p> {
@@ -20,11 +21,16 @@ impl<'p> Springs<'p> {
     pub fn new(
         relation: &'p Flexibility<'p>,
         by_all_means: bool,
-        monitor: &mut Monitor<'_>,
+        monitor: &'p dyn Watch,
     ) -> Result<Option<Self>, Stop> {
         let stiffness = stiffness(relation, COMPLIANCE, monitor)?;
-        let first =
-            |stiffness| Springs { relation, compliance: COMPLIANCE, stiffness, by_all_means };
+        let first = |stiffness| Springs {
+            relation,
+            compliance: COMPLIANCE,
+            stiffness,
+            by_all_means,
+            monitor,
+        };
         Ok(stiffness.map(first))
     }
 }
@@ -46,11 +52,11 @@ impl InSeries for Springs<'_> {
         force.iter().map(|force| -force).collect()
     }
 
-    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
+    fn change(&mut self, softer: bool) {
         let compliance = changed(self.compliance, softer, RANGE[1]);
         // Where there is no time for others these stay.
         if compliance != self.compliance
-            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, monitor)
+            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, self.monitor)
         {
             (self.compliance, self.stiffness) = (compliance, stiffness);
         }
@@ -70,12 +76,12 @@ const NEGATIVE: f64 = 1e-9;
 pub const DEFINITE: f64 = 1e-6;
 
 /// True if `W` is definite; if there is no time to see it, it is not.
-pub fn is_definite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
+pub fn is_definite(relation: &Flexibility<'_>, monitor: &dyn Watch) -> bool {
     matches!(factor(relation, (0.0, DEFINITE), monitor), Ok(Some(_)))
 }
 
 /// True if `W` has an eigenvalue below zero that is not due to rounding; if there is no time to see it, it has not.
-pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> bool {
+pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &dyn Watch) -> bool {
     matches!(factor(relation, (NEGATIVE, SINGULAR), monitor), Ok(None))
 }
 
@@ -83,7 +89,7 @@ pub fn is_indefinite(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> b
 fn factor(
     relation: &Flexibility<'_>,
     (compliance, least): (f64, f64),
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Option<Factor>, Stop> {
     let n = relation.size();
     let root = roots(relation);
@@ -111,7 +117,7 @@ fn roots(relation: &Flexibility<'_>) -> Vec<f64> {
 pub fn stiffness(
     relation: &Flexibility<'_>,
     compliance: f64,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Option<Vec<f64>>, Stop> {
     let n = relation.size();
     let root = roots(relation);

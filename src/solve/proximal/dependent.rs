@@ -11,24 +11,23 @@
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
 use super::rounds::{COMPLIANCE, InSeries, changed, rounds, solve as solve_by_rounds};
-use super::step::ended;
+use super::step::{Means, ended};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
-use crate::settings::Settings;
-use crate::solve::result::{Ending, Solution, Solve};
+use crate::solve::result::{Ending, Solution};
 
-/// Solves the problem from the displacements `start`; `solve` solves each round.
+/// Solves the problem from the displacements `start`; each round by `means`.
 pub fn solve(
     problem: &ContactProblem<'_, DependentRows<'_>>,
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
+    let Means { settings, monitor, .. } = means;
     let relation = problem.relation();
     let first = match condensed(relation, COMPLIANCE, monitor)? {
         Ok(condensed) => condensed,
@@ -53,9 +52,10 @@ pub fn solve(
             before: variables.clone(),
             variables,
             right: Vec::new(),
+            monitor,
         };
         let force = vec![0.0; relation.size()];
-        rounds(problem, &mut bodies, force, (settings, solve), monitor)
+        rounds(problem, &mut bodies, force, Means { settings, ..means })
     })?;
     Ok(found.solution)
 }
@@ -73,6 +73,7 @@ struct Bodies<'p> {
     before: Vec<f64>,
     /// The load of the round on the variables, and on the displacements beyond the springs.
     right: Vec<f64>,
+    monitor: &'p dyn Watch,
 }
 
 impl Bodies<'_> {
@@ -112,7 +113,7 @@ impl InSeries for Bodies<'_> {
 
     /// The springs before are released first. Where there is no time for others the first ones come back. Softer ones begin where
     /// the round did that less compliant ones have failed in.
-    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>) {
+    fn change(&mut self, softer: bool) {
         let compliance = changed(self.compliance, softer, COMPLIANCE);
         if softer {
             self.variables.clone_from(&self.before);
@@ -122,7 +123,7 @@ impl InSeries for Bodies<'_> {
         }
         (self.compliance, self.changed) = (COMPLIANCE, None);
         if compliance < COMPLIANCE
-            && let Ok(Ok(condensed)) = condensed(self.relation, compliance, monitor)
+            && let Ok(Ok(condensed)) = condensed(self.relation, compliance, self.monitor)
         {
             (self.compliance, self.changed) = (compliance, Some(condensed));
         }
@@ -142,7 +143,7 @@ impl InSeries for Bodies<'_> {
 fn condensed(
     relation: &DependentRows<'_>,
     compliance: f64,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<Result<SparseSchur, Stop>, Error> {
     let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
     let (stiffness, dependence) = (relation.stiffness, relation.dependence);

@@ -7,11 +7,10 @@
 //! them are the point of the least lack so far, with two pairs drawn anew.
 
 use super::on_flexibility::OnFlexibility;
+use super::step::Means;
 use crate::law::{Contact, Vector};
 use crate::linalg::perturbation::Perturbation;
-use crate::monitor::Monitor;
 use crate::problem::Flexibility;
-use crate::settings::Settings;
 use crate::solve::result::{Ending, Solution, Status};
 
 /// Most pairs, and most points that are drawn: pieces are four to the power of the pairs. Of problems with 1 to 8 pairs,
@@ -25,15 +24,14 @@ const REDRAWN: usize = 2;
 /// The solution of a problem, if points are found from which Newton's method arrives.
 pub fn drawn(
     contact: &Contact<'_, Flexibility<'_>>,
-    settings: &Settings,
+    Means { settings, monitor, .. }: Means<'_>,
     force: &[f64],
-    monitor: &mut Monitor<'_>,
 ) -> Option<Solution> {
     let laws = contact.pairs();
     if laws.len() > MOST_PAIRS || contact.is_frictionless() {
         return None;
     }
-    let mut equations = OnFlexibility::new(contact, false);
+    let mut equations = OnFlexibility::new(contact, false, monitor);
     let size = equations.size();
     let mut random = Perturbation::new(0);
     let (mut best, mut least) = (equations.coordinates(force), f64::INFINITY);
@@ -42,7 +40,7 @@ pub fn drawn(
         if monitor.is_late() {
             return None;
         }
-        let mut found = equations.solve(begin, settings.tolerance, monitor);
+        let mut found = equations.solve(begin, settings.tolerance);
         systems += found.systems;
         found.systems = systems;
         if found.ending == Ending::Done {

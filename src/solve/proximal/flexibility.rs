@@ -22,45 +22,45 @@ use super::drawn::drawn;
 use super::growth::sentence;
 use super::on_flexibility::{DEAR, LawPoint, OnFlexibility};
 use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
-use super::step::{ended, step};
+use super::step::{Means, ended, step};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, bounded, exceed_gaps};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::normalise;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{Flexibility, FlexibilityProblem, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::newton::NewtonOutcome;
-use crate::solve::result::{Ending, Solution, Solve, Status};
+use crate::solve::result::{Ending, Solution, Status};
 
 /// The cause where the first springs make `W` definite.
 const INDEFINITE: &str =
     "W is not positive semi-definite, its negative eigenvalues are larger than rounding, and ";
 
-/// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is, and `solve` solves
+/// Solves the problem; `start` are contact forces, `number` tells which pair of the host a pair is, and `means` solve
 /// each round.
 pub fn solve(
     problem: &FlexibilityProblem<'_>,
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     start: Option<&[f64]>,
     number: &dyn Fn(usize) -> usize,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
-    let contact = &Contact::new(problem);
+    let (contact, settings) = (&Contact::new(problem), means.settings);
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-    if let Some(found) = without_springs(contact, (settings, solve), &force, monitor)? {
+    if let Some(found) = without_springs(contact, means, &force)? {
         return Ok(found);
     }
     let with_start = (settings, start);
     let (found, proof) =
         solve_by_rounds(problem, number, with_start, |problem, settings, start| {
+            let means = Means { settings, ..means };
             let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-            let found = from_forces(problem, (settings, solve), (&force, false), monitor)?;
+            let found = from_forces(problem, means, (&force, false))?;
             if found.solution.status != Status::Stalled || settings.method != Method::Auto {
                 return Ok(found);
             }
             // Newton's method in softer springs leads elsewhere: each round has a solution whatever the friction.
-            let again = from_forces(problem, (settings, solve), (&force, true), monitor)?;
+            let again = from_forces(problem, means, (&force, true))?;
             Ok(if again.solution.status == Status::Stalled { found } else { again })
         })?;
     let RoundsFound { mut solution, pattern } = found;
@@ -80,13 +80,13 @@ pub fn solve(
         return Ok(solution);
     }
     if pattern.is_none()
-        && let Some(cause) = cause(problem.relation(), monitor)
+        && let Some(cause) = cause(problem.relation(), means.monitor)
     {
         let said = format!("no solution was found: {cause}forces do not settle (eta is {eta:.1e})");
         solution.message = said.into();
     }
     if settings.method == Method::Auto
-        && let Some(found) = drawn(contact, settings, &force, monitor)
+        && let Some(found) = drawn(contact, means, &force)
     {
         return Ok(found);
     }
@@ -96,16 +96,16 @@ pub fn solve(
 /// What Newton's method on `W` itself, and methods on its inverse, make of the problem, if that is the end.
 fn without_springs(
     contact: &Contact<'_, Flexibility<'_>>,
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     force: &[f64],
-    monitor: &mut Monitor<'_>,
 ) -> Result<Option<Solution>, Error> {
-    let equations = on_itself(contact, settings, monitor);
+    let settings = means.settings;
+    let equations = on_itself(contact, means);
     let is_definite = equations.is_some();
     let mut equations =
-        equations.unwrap_or_else(|| OnFlexibility::new(contact, true)).while_cheap();
+        equations.unwrap_or_else(|| OnFlexibility::new(contact, true, means.monitor)).while_cheap();
     let (tolerance, begin) = (settings.tolerance, equations.coordinates(force));
-    let found = is_definite.then(|| equations.solve(begin, tolerance, monitor));
+    let found = is_definite.then(|| equations.solve(begin, tolerance));
     if let Some(ended) = found.as_ref().and_then(|found| settled(contact, settings, found)) {
         return Ok(Some(ended));
     }
@@ -115,7 +115,7 @@ fn without_springs(
         method => method,
     };
     let settings = &Settings { method, ..settings.clone() };
-    let on_inverse = on_stiffness(contact.problem(), (settings, solve), monitor)?;
+    let on_inverse = on_stiffness(contact.problem(), Means { settings, ..means })?;
     let mut equations = equations.at_any_cost();
     let from_inverse = |found: &Solution| equations.coordinates(&found.certificate.force);
     let begins = [
@@ -123,7 +123,7 @@ fn without_springs(
         found.filter(|found| found.ending == DEAR).map(|found| found.point.y),
     ];
     for begin in begins.into_iter().flatten() {
-        let again = equations.solve(begin, tolerance, monitor);
+        let again = equations.solve(begin, tolerance);
         if let Some(mut ended) = settled(contact, settings, &again) {
             if let Some(on_inverse) = on_inverse {
                 ended.method = on_inverse.method;
@@ -149,7 +149,7 @@ fn settled(
 }
 
 /// Why forces do not settle, of a definite `W` nothing. `None`: the sentence of the rounds stands.
-fn cause(relation: &Flexibility<'_>, monitor: &mut Monitor<'_>) -> Option<&'static str> {
+fn cause(relation: &Flexibility<'_>, monitor: &dyn Watch) -> Option<&'static str> {
     if is_definite(relation, monitor) {
         return Some("");
     }
@@ -189,26 +189,25 @@ fn at_a_wall(problem: &FlexibilityProblem<'_>) -> Option<Vec<f64>> {
 /// no time.
 pub fn on_itself<'c, 'p>(
     contact: &'c Contact<'p, Flexibility<'p>>,
-    settings: &Settings,
-    monitor: &mut Monitor<'_>,
+    means: Means<'c>,
 ) -> Option<OnFlexibility<'c, 'p>> {
-    let fits = takes_newton(settings) && is_definite(contact.problem().relation(), monitor);
-    fits.then(|| OnFlexibility::new(contact, true))
+    let fits =
+        takes_newton(means.settings) && is_definite(contact.problem().relation(), means.monitor);
+    fits.then(|| OnFlexibility::new(contact, true, means.monitor))
 }
 
 /// The solution on the stiffness `K = W⁻¹`, with the load `K q`. `None` if there is none, or no stiffness.
 fn on_stiffness(
     problem: &FlexibilityProblem<'_>,
-    with: (&Settings, Solve),
-    monitor: &mut Monitor<'_>,
+    means: Means<'_>,
 ) -> Result<Option<Solution>, Error> {
     let relation = problem.relation();
-    let Ok(Some(stiffness)) = stiffness(relation, 0.0, monitor) else { return Ok(None) };
+    let Ok(Some(stiffness)) = stiffness(relation, 0.0, means.monitor) else { return Ok(None) };
     let size = problem.unknowns();
     let stiffness = Matrix::new(size, &stiffness, size.max(1));
     let load = stiffness.product(relation.free);
     let form = Stiffness::new(stiffness, &load, problem.dim());
-    let found = step(problem, form, &vec![0.0; size], with, monitor)?;
+    let found = step(problem, form, &vec![0.0; size], means)?;
     Ok(Some(found).filter(|found| found.status == Status::Solved))
 }
 
@@ -221,12 +220,11 @@ pub fn takes_newton(settings: &Settings) -> bool {
 /// Newton's method solves it.
 fn from_forces(
     problem: &FlexibilityProblem<'_>,
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     (force, by_all_means): (&[f64], bool),
-    monitor: &mut Monitor<'_>,
 ) -> Result<RoundsFound, Error> {
-    let relation = problem.relation();
-    match Springs::new(relation, by_all_means, monitor) {
+    let (relation, settings) = (problem.relation(), means.settings);
+    match Springs::new(relation, by_all_means, means.monitor) {
         Ok(springs) => {
             let mut springs = springs.ok_or_else(|| {
                 Error::invalid(
@@ -234,7 +232,7 @@ fn from_forces(
                     "W is not positive semi-definite: a force has negative flexibility",
                 )
             })?;
-            rounds(problem, &mut springs, force.to_vec(), (settings, solve), monitor)
+            rounds(problem, &mut springs, force.to_vec(), means)
         }
         Err(stop) => {
             let (d, how) = (relation.relative(force), (settings.method, &Ending::Stopped(stop), 0));

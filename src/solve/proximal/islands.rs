@@ -10,39 +10,39 @@ use std::ops::Range;
 use super::flexibility::{self, on_itself, takes_newton};
 use super::growth::named;
 use super::lone_pair::LonePair;
+use super::step::Means;
 use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{ContactProblem, Flexibility, FlexibilityForm, FlexibilityProblem, SparseW};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::part::PairData;
-use crate::solve::result::{Ending, Solution, Solve, Status};
+use crate::solve::result::{Ending, Solution, Status};
 
 /// Solves the problem; `start` are contact forces. Islands behind one at which the call is stopped, as large ones or
 /// larger, keep theirs.
 pub fn solve(
     problem: &FlexibilityProblem<'_>,
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Solution, Error> {
     let FlexibilityForm::Sparse(matrix) = &problem.relation().form else {
-        return flexibility::solve(problem, (settings, solve), start, &|pair| pair, monitor);
+        return flexibility::solve(problem, means, start, &|pair| pair);
     };
     let contact = &Contact::new(problem);
-    let found = in_turn((contact, matrix), (settings, solve), start, monitor)?;
-    Ok(found.solution(contact, settings))
+    let found = in_turn((contact, matrix), means, start)?;
+    Ok(found.solution(contact, means.settings))
 }
 
 /// Solves island by island.
 fn in_turn(
     (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
-    (settings, solve): (&Settings, Solve),
+    means: Means<'_>,
     start: Option<&[f64]>,
-    monitor: &mut Monitor<'_>,
 ) -> Result<Found, Error> {
+    let Means { settings, monitor, .. } = means;
     let problem = contact.problem();
     let (islands, dim) = (&matrix.islands, problem.dim());
     let several = islands.len() > 1;
@@ -51,6 +51,7 @@ fn in_turn(
         let share = settings.tolerance / std::f64::consts::SQRT_2;
         own.tolerance = share.max(SMALLEST_TOLERANCE);
     }
+    let means = Means { settings: &own, ..means };
     let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
     let mut found = Found { force, islands: islands.len(), ..Found::default() };
     let with_newton = takes_newton(settings);
@@ -74,9 +75,8 @@ fn in_turn(
         let island = island((problem, &ordered), (&data, part), &entries)?;
         let begin = gathered(&found.force, pairs, dim);
         let contact = &Contact::new(&island);
-        let newton = on_itself(contact, &own, monitor).map(|mut equations| {
-            equations.solve(equations.coordinates(&begin), own.tolerance, monitor)
-        });
+        let newton = on_itself(contact, means)
+            .map(|mut equations| equations.solve(equations.coordinates(&begin), own.tolerance));
         if let Some(newton) = newton
             && newton.ending == Ending::Done
             && newton.point.eta <= own.tolerance
@@ -86,9 +86,8 @@ fn in_turn(
             continue;
         }
         let begin = start.map(|_| &begin[..]);
-        let solution =
-            flexibility::solve(&island, (&own, solve), begin, &|pair| pairs[pair], monitor)
-                .map_err(|error| if several { in_island(error, pairs) } else { error })?;
+        let solution = flexibility::solve(&island, means, begin, &|pair| pairs[pair])
+            .map_err(|error| if several { in_island(error, pairs) } else { error })?;
         let stops = solution.status.stop().is_some();
         found.add(pairs, dim, solution);
         if stops {
@@ -180,7 +179,7 @@ impl Found {
         (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
         pair: usize,
         tolerance: f64,
-        monitor: &mut Monitor<'_>,
+        monitor: &dyn Watch,
     ) -> bool {
         let (relation, dim) = (contact.problem().relation(), contact.dim());
         let own = dim * pair..dim * (pair + 1);

@@ -66,7 +66,7 @@
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_of;
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Stop;
 use crate::settings::Settings;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::{newton, path};
@@ -101,11 +101,11 @@ const LEAST: f64 = 1e-13;
 
 /// Lets the springs go. Ends with a solution for `K`, with [`Ending::RunsAway`] and the motion `q` of T3, or because it
 /// finds neither: `by_path` says if the path goes on where Newton's method fails on a problem with springs.
-pub fn let_go(call: &Call<'_>, by_path: bool, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn let_go(call: &Call<'_>, by_path: bool) -> Candidate {
     let (contact, d) = (call.contact, call.start_or_zero());
     let units = (0..d.len()).map(|i| contact.problem().unit(i)).collect();
-    let mut springs = Springs { contact, settings: call.settings, by_path, units, d, systems: 0 };
-    let found = springs.let_go(monitor);
+    let mut springs = Springs { call, by_path, units, d, systems: 0 };
+    let found = springs.let_go();
     let effort = Effort::of_systems(springs.systems);
     let candidate = |ending| Candidate::of_displacements(contact, springs.d, ending);
     found.unwrap_or_else(candidate).with_effort(effort)
@@ -113,8 +113,7 @@ pub fn let_go(call: &Call<'_>, by_path: bool, monitor: &mut Monitor<'_>) -> Cand
 
 /// A problem with springs, and what is solved of it.
 struct Springs<'c> {
-    contact: &'c Contact<'c>,
-    settings: &'c Settings,
+    call: &'c Call<'c>,
     /// True if the path goes on where Newton's method fails.
     by_path: bool,
     /// `D`.
@@ -127,13 +126,13 @@ struct Springs<'c> {
 
 impl Springs<'_> {
     /// A solution for `K`, or how the springs end without one.
-    fn let_go(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
+    fn let_go(&mut self) -> Result<Candidate, Ending> {
         let (mut s, mut factor) = (1.0, FACTOR);
-        self.d = self.held(s, true, monitor)?;
+        self.d = self.held(s, true)?;
         let (away, mut is_steady) = (AWAY * self.length(|i| self.d[i]), false);
         while s > LEAST {
             let before = self.systems;
-            let (next, d) = match self.next(s, &mut factor, monitor) {
+            let (next, d) = match self.next(s, &mut factor) {
                 // Rounding ends what has moved away as far as it can be seen.
                 Err(ending) if is_steady && !ends_the_call(&ending) => {
                     return Err(self.runs_away(s));
@@ -148,8 +147,8 @@ impl Springs<'_> {
             let turn = self.length(|i| next * d[i] - s * self.d[i]);
             (s, self.d) = (next, d);
             if change <= SETTLING * size || s <= LEAST {
-                let candidate = self.without_springs(monitor)?;
-                if candidate.is_settled(self.contact, self.settings.tolerance) {
+                let candidate = self.without_springs()?;
+                if candidate.is_settled(self.call.contact, self.call.settings.tolerance) {
                     return Ok(candidate);
                 }
             }
@@ -167,16 +166,11 @@ impl Springs<'_> {
     }
 
     /// The next problem that is solved after that with springs `s`: its springs, and its solution.
-    fn next(
-        &mut self,
-        s: f64,
-        factor: &mut f64,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<(f64, Vec<f64>), Ending> {
+    fn next(&mut self, s: f64, factor: &mut f64) -> Result<(f64, Vec<f64>), Ending> {
         loop {
             let next = s / *factor;
             let is_last = *factor < 2.0;
-            match self.held(next, is_last, monitor) {
+            match self.held(next, is_last) {
                 Ok(d) => return Ok((next, d)),
                 Err(ending) if is_last || ends_the_call(&ending) => return Err(ending),
                 Err(_) => *factor = factor.sqrt(),
@@ -186,24 +180,20 @@ impl Springs<'_> {
 
     /// The solution with springs `s`, by Newton's method from the last one; where that fails, and it is the `last` try, by
     /// the path.
-    fn held(
-        &mut self,
-        s: f64,
-        is_last: bool,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Vec<f64>, Ending> {
+    fn held(&mut self, s: f64, is_last: bool) -> Result<Vec<f64>, Ending> {
         let n = self.units.len();
         let stiffness = self.stiffness(s);
-        let problem = self.contact.problem();
+        let problem = self.call.contact.problem();
         let (load, slips) = (problem.load(), problem.reference_slips());
         let problem = problem.with_numbers(Matrix::new(n, &stiffness, n), load, slips);
         let contact = Contact::new(&problem);
-        let tolerance = self.settings.tolerance.max(ROUGH);
-        let settings = Settings { tolerance, ..self.settings.clone() };
-        let mut candidate = self.newton(Call::new(&contact, &settings), MOST_SYSTEMS, monitor)?;
+        let tolerance = self.call.settings.tolerance.max(ROUGH);
+        let settings = Settings { tolerance, ..self.call.settings.clone() };
+        let call = Call::new(&contact, &settings, self.call.monitor);
+        let mut candidate = self.newton(call, MOST_SYSTEMS)?;
         if is_last && self.by_path && !candidate.certificate(&contact).holds(tolerance) {
             let walk = if contact.dim() == 2 { path::linear } else { path::curved };
-            candidate = walk(&Call::new(&contact, &settings).from(candidate.d()), monitor);
+            candidate = walk(&call.from(candidate.d()));
             self.systems += candidate.effort.factorisations;
         }
         match candidate.certificate(&contact).holds(tolerance) {
@@ -213,23 +203,17 @@ impl Springs<'_> {
     }
 
     /// Newton's method on `K` alone, from the last solution.
-    fn without_springs(&mut self, monitor: &mut Monitor<'_>) -> Result<Candidate, Ending> {
-        let call = Call::new(self.contact, self.settings);
-        let mut candidate = self.newton(call, MOST_WITHOUT_SPRINGS, monitor)?;
-        newton::refine_to_tolerance(&call, &mut candidate, monitor);
+    fn without_springs(&mut self) -> Result<Candidate, Ending> {
+        let mut candidate = self.newton(*self.call, MOST_WITHOUT_SPRINGS)?;
+        newton::refine_to_tolerance(self.call, &mut candidate);
         Ok(candidate)
     }
 
     /// Newton's method on a problem with at most so many systems, from the last solution. `Err`: the call is
     /// stopped.
-    fn newton(
-        &mut self,
-        call: Call<'_>,
-        most: u64,
-        monitor: &mut Monitor<'_>,
-    ) -> Result<Candidate, Ending> {
+    fn newton(&mut self, call: Call<'_>, most: u64) -> Result<Candidate, Ending> {
         let (mut candidate, used_up) =
-            monitor.within(most, |monitor| newton::newton(&call.from(&self.d), monitor));
+            call.monitor.within(most, || newton::newton(&call.from(&self.d)));
         self.systems += candidate.effort.factorisations;
         if let Ending::Stopped(stop) = candidate.ending {
             if stop != Stop::IterationLimit || used_up {
@@ -243,7 +227,7 @@ impl Springs<'_> {
     /// `K + s D`, column-major.
     fn stiffness(&self, s: f64) -> Vec<f64> {
         let n = self.units.len();
-        let columns = (0..n).flat_map(|j| &self.contact.problem().column(j)[..n]);
+        let columns = (0..n).flat_map(|j| &self.call.contact.problem().column(j)[..n]);
         let mut stiffness: Vec<f64> = columns.copied().collect();
         let diagonal = stiffness.iter_mut().step_by(n + 1);
         diagonal.zip(&self.units).for_each(|(k, unit)| *k += s * unit);
@@ -264,6 +248,7 @@ fn ends_the_call(ending: &Ending) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::Monitor;
     use crate::problem::{ContactProblem, FrictionLaw};
     use crate::solve::result::Existence;
     use crate::solve::solve;
@@ -287,7 +272,7 @@ mod tests {
         let settings = Settings { proof: true, ..Settings::default() };
         let mut monitor = Monitor::new(&settings, None);
         let contact = Contact::new(&problem);
-        let ending = let_go(&Call::new(&contact, &settings), true, &mut monitor).ending;
+        let ending = let_go(&Call::new(&contact, &settings, &monitor), true).ending;
         let Ending::RunsAway(motion) = ending else { panic!("the springs end otherwise") };
         // `s d - q` is of the size of `s`, which is less than 1e-8 here.
         for (q, exact) in motion.iter().zip([-2.0, -4.0, 0.0, -2.0, 0.0, 0.0]) {

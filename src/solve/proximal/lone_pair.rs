@@ -5,7 +5,7 @@ use super::compliant::DEFINITE;
 use super::on_flexibility::{ACCURATE, column};
 use crate::law::{PairLaw, Vector, natural_sum};
 use crate::linalg::vector3::{Matrix3, Vector3, vector};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::newton::{Goal, NormalMap, descend};
 use crate::solve::result::Ending;
 
@@ -53,7 +53,7 @@ impl<'c> LonePair<'c> {
         mut self,
         begin: &[f64],
         tolerance: f64,
-        monitor: &mut Monitor<'_>,
+        monitor: &dyn Watch,
     ) -> Option<(Vector, u64)> {
         let force = vector(begin);
         let caused = self.block * force + self.free;
@@ -91,7 +91,7 @@ impl NormalMap for LonePair<'_> {
         point.lack.norm()
     }
 
-    fn step(&mut self, point: &LonePoint, _: &mut Monitor<'_>) -> Result<Vector3, Ending> {
+    fn step(&mut self, point: &LonePoint) -> Result<Vector3, Ending> {
         let linear = self.law.linearised(self.law.piece(&point.y), &point.y);
         let mut matrix = Matrix3::identity();
         for c in 0..self.dim {

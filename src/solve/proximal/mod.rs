@@ -25,3 +25,4 @@ mod step;
 pub use dependent::solve as solve_dependent;
 pub use islands::{largest_island, solve as solve_flexibility};
 pub use let_go::let_go;
+pub use step::Means;

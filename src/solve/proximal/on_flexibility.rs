@@ -16,7 +16,7 @@ use crate::linalg::factor::{Factor, cholesky_work, inverse_work, lu_work};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{norm, norm_of};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{Flexibility, Relation};
 use crate::settings::{Method, Settings};
 use crate::solve::newton::{Goal, NewtonOutcome, NormalMap, descend};
@@ -53,6 +53,7 @@ impl NewtonOutcome<LawPoint> {
 /// The equations of a problem.
 pub struct OnFlexibility<'c, 'p> {
     contact: &'c Contact<'p, Flexibility<'p>>,
+    monitor: &'c dyn Watch,
     is_definite: bool,
     /// Operations that factorisations may still take.
     work: f64,
@@ -76,9 +77,13 @@ pub struct LawPoint {
 
 impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// The equations, undamped if `W` is definite.
-    pub fn new(contact: &'c Contact<'p, Flexibility<'p>>, is_definite: bool) -> Self {
+    pub fn new(
+        contact: &'c Contact<'p, Flexibility<'p>>,
+        is_definite: bool,
+        monitor: &'c dyn Watch,
+    ) -> Self {
         let root = scale_roots(contact.pairs(), contact.dim()).collect();
-        OnFlexibility { contact, is_definite, work: f64::INFINITY, root }
+        OnFlexibility { contact, monitor, is_definite, work: f64::INFINITY, root }
     }
 
     /// As long as factorisations take no more operations than a solution on the inverse of `W` would.
@@ -111,13 +116,8 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
     }
 
     /// Newton's method from the coordinates `y`.
-    pub fn solve(
-        &mut self,
-        y: Vec<Vector>,
-        tolerance: f64,
-        monitor: &mut Monitor<'_>,
-    ) -> NewtonOutcome<LawPoint> {
-        let begin = self.point(y);
+    pub fn solve(&mut self, y: Vec<Vector>, tolerance: f64) -> NewtonOutcome<LawPoint> {
+        let (begin, monitor) = (self.point(y), self.monitor);
         descend(self, begin, Goal::of(ACCURATE * tolerance), monitor)
     }
 
@@ -209,7 +209,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
         point.merit
     }
 
-    fn step(&mut self, point: &LawPoint, monitor: &mut Monitor<'_>) -> Result<Vec<Vector>, Ending> {
+    fn step(&mut self, point: &LawPoint) -> Result<Vec<Vector>, Ending> {
         let (dim, laws) = (self.contact.dim(), self.contact.pairs());
         let (matrix, units) = (self.relation().matrix(), self.relation().units());
         let pairs = laws.iter().zip(&point.y).map(|(law, y)| {
@@ -224,7 +224,7 @@ impl NormalMap for OnFlexibility<'_, '_> {
         if self.work < 0.0 {
             return Err(DEAR);
         }
-        monitor.affords(lu_work(n))?;
+        self.monitor.affords(lu_work(n))?;
         let fill = |j: usize, entries: &mut [f64]| {
             let (pair, c) = (unknowns[j] / dim, unknowns[j] % dim);
             let (push, motion) = column(&laws[pair], &pairs[pair].1, c);
@@ -244,8 +244,8 @@ impl NormalMap for OnFlexibility<'_, '_> {
                 .zip(&unknowns)
                 .for_each(|(entry, &i)| *entry *= self.root[i] * scale);
         };
-        let factor = Factor::new(n, false, SINGULAR, fill, &mut monitor.asking());
-        let singular = || monitor.stop().map_or(Ending::Singular, Ending::Stopped);
+        let factor = Factor::new(n, false, SINGULAR, fill, &mut self.monitor.asking());
+        let singular = || self.monitor.stop().map_or(Ending::Singular, Ending::Stopped);
         let factor = factor.ok_or_else(singular)?;
         let mut own: Vec<f64> = unknowns.iter().map(|&i| -self.root[i] * point.lack[i]).collect();
         factor.solve(&mut own);

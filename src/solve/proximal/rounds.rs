@@ -20,16 +20,15 @@
 //! do work on the gaps.
 
 use super::growth::{ENOUGH, Growth, proof_in, sentence};
-use super::step::{measured, step};
+use super::step::{Means, measured, step};
 use crate::error::Error;
 use crate::law::{Contact, passes_gaps, without_friction};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
-use crate::monitor::Monitor;
 use crate::problem::{ContactProblem, Redundant, Stiffness};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::AIM;
-use crate::solve::result::{Solution, Solve, Status};
+use crate::solve::result::{Solution, Status};
 
 /// Most rounds: patterns of forces with a flexibility of `e` itself halve their error in each.
 const ROUNDS: usize = 100;
@@ -80,7 +79,7 @@ pub trait InSeries {
     fn advance(&mut self, _: &[f64]) {}
 
     /// More compliant springs if they are to be softer, otherwise less compliant ones, if there are any.
-    fn change(&mut self, softer: bool, monitor: &mut Monitor<'_>);
+    fn change(&mut self, softer: bool);
 
     /// True if there are no softer ones, or none that a round is left to.
     fn are_softest(&self) -> bool;
@@ -129,18 +128,16 @@ pub fn solve<'p, R: Clone + Redundant>(
     Ok((found, proved))
 }
 
-/// Rounds from contact forces `force`; `solve` solves each.
+/// Rounds from contact forces `force`, each solved by `means`.
 pub fn rounds<R: Redundant>(
     problem: &ContactProblem<'_, R>,
     springs: &mut dyn InSeries,
     force: Vec<f64>,
-    (settings, solve): (&Settings, Solve),
-    monitor: &mut Monitor<'_>,
+    means: Means<'_>,
 ) -> Result<RoundsFound, Error> {
     let mut rounds = Rounds {
         contact: Contact::new(problem),
-        settings,
-        solve,
+        means,
         last: springs.compliance(),
         springs,
         force,
@@ -154,7 +151,7 @@ pub fn rounds<R: Redundant>(
         solved: 0,
     };
     for _ in 0..ROUNDS {
-        if rounds.ends_with_next(monitor)? {
+        if rounds.ends_with_next()? {
             break;
         }
     }
@@ -165,8 +162,7 @@ pub fn rounds<R: Redundant>(
 /// The iteration.
 struct Rounds<'p, 's, R: Redundant> {
     contact: Contact<'p, R>,
-    settings: &'s Settings,
-    solve: Solve,
+    means: Means<'s>,
     springs: &'s mut dyn InSeries,
     /// Contact forces of the round before.
     force: Vec<f64>,
@@ -189,9 +185,9 @@ struct Rounds<'p, 's, R: Redundant> {
 
 impl<R: Redundant> Rounds<'_, '_, R> {
     /// Makes a round. Returns `true` if it is the last one.
-    fn ends_with_next(&mut self, monitor: &mut Monitor<'_>) -> Result<bool, Error> {
+    fn ends_with_next(&mut self) -> Result<bool, Error> {
         let rough = self.tolerance();
-        let round = self.round(rough, monitor)?;
+        let round = self.round(rough)?;
         let failed = round.status == Status::Stalled;
         let force = match round.status {
             Status::Solved | Status::Stalled => {
@@ -201,13 +197,13 @@ impl<R: Redundant> Rounds<'_, '_, R> {
             _ => self.force.clone(),
         };
         let result = (self.springs.displacements(&force), &force[..]);
-        let found = measured(&self.contact, (round, rough), result, self.settings);
+        let found = measured(&self.contact, (round, rough), result, self.means.settings);
         let eta = found.certificate.eta;
         let softest = self.springs.are_softest();
         if failed && eta >= if softest { self.last } else { SLOW * self.last } {
             match softest {
                 true => _ = self.keep(found, false, false),
-                false => self.springs.change(true, monitor),
+                false => self.springs.change(true),
             }
             return Ok(softest);
         }
@@ -227,11 +223,11 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         // Of a solution less compliant springs make the change less, until it is rounding of the gaps.
         let is_rounding =
             self.lowered && found.status == Status::Solved && self.changes[1] >= self.changes[0];
-        let allowed = self.settings.tolerance * norm_inf(&self.force);
+        let allowed = self.means.settings.tolerance * norm_inf(&self.force);
         let settled = !deep && (is_rounding || settles(self.changes, allowed));
         let before = self.springs.compliance();
         if !failed && is_slow && !settled {
-            self.springs.change(false, monitor);
+            self.springs.change(false);
         }
         self.lowered = self.springs.compliance() < before;
         self.last = eta;
@@ -243,7 +239,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     /// ones mend it. Gaps may ask for more than `eta` does.
     fn tolerance(&self) -> f64 {
         let rough = ROUGH * self.last.min(self.springs.compliance());
-        let enough = if self.deep { 0.0 } else { AIM * self.settings.tolerance };
+        let enough = if self.deep { 0.0 } else { AIM * self.means.settings.tolerance };
         rough.max(enough).max(SMALLEST_TOLERANCE)
     }
 
@@ -252,23 +248,24 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     fn is_deep(&self, found: &Solution) -> bool {
         let at = (&found.d[..], found.certificate.penetration);
         found.status == Status::Solved
-            && passes_gaps(self.contact.problem(), at, self.settings.tolerance)
+            && passes_gaps(self.contact.problem(), at, self.means.settings.tolerance)
     }
 
     /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
-    fn round(&mut self, tolerance: f64, monitor: &mut Monitor<'_>) -> Result<Solution, Error> {
+    fn round(&mut self, tolerance: f64) -> Result<Solution, Error> {
         let by_all_means = self.springs.are_solved_by_all_means() || self.contact.is_frictionless();
-        let method = match self.settings.method {
+        let method = match self.means.settings.method {
             Method::Auto if !by_all_means => Method::Newton,
             method => method,
         };
-        let settings = Settings { tolerance, method, ..self.settings.clone() };
+        let settings = Settings { tolerance, method, ..self.means.settings.clone() };
         let d = self.springs.displacements(&self.force);
         let load = self.springs.load(&self.force);
         let stiffness = Matrix::new(d.len(), self.springs.stiffness(), d.len().max(1));
         let relation = Stiffness::new(stiffness, &load, self.contact.dim())
             .with_free_motions(self.springs.free_motions());
-        step(self.contact.problem(), relation, &d, (&settings, self.solve), monitor)
+        let means = Means { settings: &settings, ..self.means };
+        step(self.contact.problem(), relation, &d, means)
     }
 
     /// Keeps a result if it `halves` the least error of those that are no solutions, and of solutions the last one until the

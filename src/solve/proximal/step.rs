@@ -3,18 +3,25 @@
 use crate::certificate::measure;
 use crate::error::Error;
 use crate::law::Contact;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness, wanted};
+
+/// How a problem with springs is solved.
+#[derive(Clone, Copy)]
+pub struct Means<'m> {
+    pub settings: &'m Settings,
+    pub solve: Solve,
+    pub monitor: &'m dyn Watch,
+}
 
 /// Solves for the step from the displacements `d`, with the stiffness and the load of bodies and springs.
 pub fn step<R: Relation>(
     problem: &ContactProblem<'_, R>,
     relation: Stiffness<'_>,
     d: &[f64],
-    (settings, solve): (&Settings, Solve),
-    monitor: &mut Monitor<'_>,
+    Means { settings, solve, monitor }: Means<'_>,
 ) -> Result<Solution, Error> {
     let dim = problem.dim();
     let gap: Vec<f64> =
@@ -26,7 +33,7 @@ pub fn step<R: Relation>(
     let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
     let law = problem.law();
     let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
-    solve(&Call::new(&Contact::new(&problem), settings), monitor)
+    solve(&Call::new(&Contact::new(&problem), settings, monitor))
 }
 
 /// The result of displacements `d` and forces that a method has ended with, and the number of its systems.

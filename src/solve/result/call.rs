@@ -1,6 +1,7 @@
 //! A problem that a method solves, with how it is to be solved and from where.
 
 use crate::law::Contact;
+use crate::monitor::Watch;
 use crate::settings::{Method, Settings};
 
 /// A problem that a method solves.
@@ -10,12 +11,14 @@ pub struct Call<'c> {
     pub settings: &'c Settings,
     /// Displacements, zero if `None`.
     pub start: Option<&'c [f64]>,
+    /// Counts what is done, and tells when to stop.
+    pub monitor: &'c dyn Watch,
 }
 
 impl<'c> Call<'c> {
     /// A call that begins at zero.
-    pub fn new(contact: &'c Contact<'c>, settings: &'c Settings) -> Self {
-        Call { contact, settings, start: None }
+    pub fn new(contact: &'c Contact<'c>, settings: &'c Settings, monitor: &'c dyn Watch) -> Self {
+        Call { contact, settings, start: None, monitor }
     }
 
     /// This call from other displacements.

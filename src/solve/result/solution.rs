@@ -3,11 +3,11 @@
 use super::call::Call;
 use crate::certificate::{Certificate, Proof};
 use crate::error::{Error, Message};
-use crate::monitor::{Monitor, Stop};
+use crate::monitor::Stop;
 use crate::settings::Method;
 
 /// Solves a contact problem: what methods take that stand before the plan and need it.
-pub type Solve = fn(&Call<'_>, &mut Monitor<'_>) -> Result<Solution, Error>;
+pub type Solve = fn(&Call<'_>) -> Result<Solution, Error>;
 
 /// Kind of a result: solved, or the reason why not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

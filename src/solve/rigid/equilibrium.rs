@@ -21,7 +21,7 @@ use crate::linalg::least_squares::least_squares;
 use crate::linalg::nnls;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, norm};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{Relation, Stiffness};
 use crate::solve::result::{Call, Ending};
 
@@ -44,14 +44,14 @@ const STEPS: usize = 20;
 const MOST_ROUNDS: usize = 300;
 
 /// A recession direction that the loads drive; `None` also if there is no time to look for it.
-pub fn escape(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+pub fn escape(contact: &Contact<'_>, monitor: &dyn Watch) -> Option<Vec<f64>> {
     Balance::new(contact, monitor)?.escape()
 }
 
 /// As [`escape`], for a method that comes behind others. The plan of a problem with friction has asked before: nothing was found.
-pub fn escape_behind_others(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+pub fn escape_behind_others(call: &Call<'_>) -> Option<Vec<f64>> {
     let is_asked = !call.is_chosen() && !call.contact.is_frictionless();
-    if is_asked { None } else { escape(call.contact, monitor) }
+    if is_asked { None } else { escape(call.contact, call.monitor) }
 }
 
 /// Is asked if a motion proves that no equilibrium exists.
@@ -67,7 +67,7 @@ pub struct Balance<'c, R = Stiffness<'c>> {
 
 impl<'c> Balance<'c> {
     /// `None` if `K` is not symmetric, if there are no such motions, or if there is no time to find them.
-    pub fn new(contact: &'c Contact<'c>, monitor: &mut Monitor<'_>) -> Option<Self> {
+    pub fn new(contact: &'c Contact<'c>, monitor: &dyn Watch) -> Option<Self> {
         if !contact.problem().is_symmetric() {
             return None;
         }

@@ -11,7 +11,7 @@ use super::motions::RigidMotions;
 use crate::law::{Contact, State, touching};
 use crate::linalg::tolerances::{CONDENSATION, HELD, NEGLIGIBLE};
 use crate::linalg::vector::{dot, largest_of, norm_inf};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::FreeBlock;
 use crate::solve::result::{Call, Candidate};
 
@@ -21,13 +21,13 @@ const LARGE: f64 = 1e-10 / f64::EPSILON;
 
 /// Takes such a motion from a candidate, if there is time to find it, and if it is a solution then. What moves with it is
 /// brought into equilibrium again, without the rounding of the way back.
-pub fn leave_idle_motion(call: &Call<'_>, candidate: &mut Candidate, monitor: &mut Monitor<'_>) {
+pub fn leave_idle_motion(call: &Call<'_>, candidate: &mut Candidate) {
     let (contact, problem) = (call.contact, call.contact.problem());
     if !is_far(contact, candidate.d(), candidate.force(), |i| problem.unit(i)) {
         return;
     }
     let others = without_force(contact, candidate.force());
-    let block = FreeBlock::of_problem(problem, others, &mut monitor.asking());
+    let block = FreeBlock::of_problem(problem, others, &mut call.monitor.asking());
     let Some(block) = block else { return };
     let motion = RigidMotions::of_block(problem, &block).part(candidate.d());
     let part = contact.admissible_part(candidate.d(), &motion);
@@ -93,7 +93,7 @@ pub fn moves_freely(
     contact: &Contact<'_>,
     (d, states): (&[f64], &[State]),
     definite: &[bool],
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> bool {
     let problem = contact.problem();
     let mut is_held = vec![false; contact.unknowns()];

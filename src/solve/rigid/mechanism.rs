@@ -22,7 +22,7 @@ use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::MOVING;
 use crate::linalg::vector::{dot, normalise};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::Settings;
 use crate::solve::result::{CAUSES, Call, Escape, NO_EQUILIBRIUM, Solution, Solve, Status};
@@ -44,7 +44,7 @@ pub fn describe<'c, R: Relation>(
     solution: &mut Solution,
     balance: Option<Balance<'c, R>>,
     solve: Option<Solve>,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<(), Error> {
     let Some(proof) = solution.recession.take() else { return Ok(()) };
     // If others are not found in time, the motion of the proof stands for all, as it is.
@@ -100,7 +100,7 @@ impl RigidMotions {
 
 impl<R: Relation> Balance<'_, R> {
     /// The motion of escape against the viscosity; `None` if a solution was not found.
-    fn viscous(&self, solve: Solve, monitor: &mut Monitor<'_>) -> Result<Option<Escape>, Error> {
+    fn viscous(&self, solve: Solve, monitor: &dyn Watch) -> Result<Option<Escape>, Error> {
         let problem = self.contact.problem();
         let (matrix, gap) = (self.motions.stiffness(), self.contact.touching_gaps());
         let settings = Settings::default();
@@ -112,8 +112,8 @@ impl<R: Relation> Balance<'_, R> {
             let law = problem.law();
             let viscous = ContactProblem::with_relation(relation, problem.dim(), &gap, law, None)?;
             let contact = &Contact::new(&viscous);
-            let call = Call { contact, settings: &settings, start: d.as_deref() };
-            let solution = solve(&call, monitor)?;
+            let call = Call { start: d.as_deref(), ..Call::new(contact, &settings, monitor) };
+            let solution = solve(&call)?;
             if solution.status != Status::Solved {
                 return Ok(None);
             }
@@ -165,6 +165,7 @@ fn in_words<R: Relation>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::monitor::Monitor;
     use crate::problem::FrictionLaw;
     use crate::solve::solve;
 

@@ -2,7 +2,7 @@
 
 use crate::linalg::gmres::extend_basis;
 use crate::linalg::vector::{combination, dot, largest_of};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{ContactProblem, FreeBlock, Relation};
 
 /// A space of rigid motions.
@@ -16,7 +16,7 @@ pub struct RigidMotions {
 
 impl RigidMotions {
     /// The motions without internal force; `None` if there are none, or no time to find them.
-    pub fn of(problem: &ContactProblem<'_>, monitor: &mut Monitor<'_>) -> Option<Self> {
+    pub fn of(problem: &ContactProblem<'_>, monitor: &dyn Watch) -> Option<Self> {
         let n = problem.unknowns();
         if let Some(known) = problem.relation().free_motions() {
             let motions = Self::spanned(problem, known.iter());

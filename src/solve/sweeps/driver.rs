@@ -4,12 +4,11 @@ use super::relaxation::Relaxation;
 use super::swept::Swept;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
 use crate::linalg::vector::norm_inf;
-use crate::monitor::Monitor;
-use crate::settings::Settings;
-use crate::solve::result::Ending;
+use crate::monitor::Watch;
+use crate::solve::result::{Call, Ending};
 
 /// The driver of projected SOR.
-pub struct Driver<'m, 'c, 'p> {
+pub struct Driver<'m, 'p> {
     pub problem: Swept<'p>,
     /// The iterate, and its residual, which is carried along.
     pub x: Vec<f64>,
@@ -19,7 +18,7 @@ pub struct Driver<'m, 'c, 'p> {
     /// Sweeps so far, and the unknowns at the last look at their drift.
     sweeps: u64,
     looked_at: Vec<f64>,
-    monitor: &'m mut Monitor<'c>,
+    monitor: &'m dyn Watch,
     /// `eta` when it was last halved, and the sweeps until then.
     milestone: (f64, u64),
     /// Largest force of any iterate.
@@ -46,23 +45,18 @@ const STAGNATION: u64 = 5000;
 /// Sweeps between two measurements of `eta`, which cost a few operations per unknown each.
 const MEASURE: u64 = 4;
 
-impl<'m, 'c, 'p> Driver<'m, 'c, 'p> {
+impl<'m, 'p> Driver<'m, 'p> {
     /// Starts from `x`, which is admissible; a factor that the settings do not give is chosen below
     /// `largest_factor`.
-    pub fn new(
-        (problem, x): (Swept<'p>, Vec<f64>),
-        settings: &Settings,
-        largest_factor: f64,
-        monitor: &'m mut Monitor<'c>,
-    ) -> Self {
+    pub fn new(call: &Call<'m>, (problem, x): (Swept<'p>, Vec<f64>), largest_factor: f64) -> Self {
         Driver {
             sweeps: 0,
             looked_at: x.clone(),
-            relaxation: Relaxation::new(settings.omega, largest_factor, x.len()),
+            relaxation: Relaxation::new(call.settings.omega, largest_factor, x.len()),
             w: problem.residual(&x),
             problem,
             x,
-            monitor,
+            monitor: call.monitor,
             milestone: (f64::INFINITY, 0),
             largest_force: 0.0,
             best: (f64::INFINITY, Vec::new()),

@@ -12,7 +12,6 @@
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::swept::Swept;
 use crate::linalg::vector::{largest_of, norm};
-use crate::monitor::Monitor;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 
 /// Accuracy of an inner problem relative to that of the threshold.
@@ -32,7 +31,7 @@ const RANGE: f64 = 0.95;
 const SLOPE: f64 = 0.55;
 
 /// Solves with given thresholds, or with Coulomb's updated inside the sweep.
-pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn single(call: &Call<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
     let steepest = largest_of(contact.bounds().map(|bound| bound.slope));
     let largest_factor = if contact.is_coupled() {
@@ -40,16 +39,16 @@ pub fn single(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     } else {
         LARGEST_FACTOR
     };
-    let mut driver = Driver::new(begin(call), settings, largest_factor, monitor);
+    let mut driver = Driver::new(call, begin(call), largest_factor);
     let ending = driver.solve(settings.tolerance).err().unwrap_or(Ending::Done);
     let effort = Effort { omega: driver.relaxation.omega, ..Effort::default() };
     ended(driver, ending, effort)
 }
 
 /// Solves Coulomb's problem as a sequence of Tresca problems.
-pub fn nested(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn nested(call: &Call<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let mut driver = Driver::new(begin(call), settings, LARGEST_FACTOR, monitor);
+    let mut driver = Driver::new(call, begin(call), LARGEST_FACTOR);
     let mut damping = Damping::new(settings.damping);
     let mut thresholds = contact.thresholds(&driver.w);
     let mut outer_iterations = 0;
@@ -86,7 +85,7 @@ fn begin<'c>(call: &Call<'c>) -> (Swept<'c>, Vec<f64>) {
 }
 
 /// The last iterate if it is the solution, the best one otherwise.
-fn ended(mut driver: Driver<'_, '_, '_>, ending: Ending, effort: Effort) -> Candidate {
+fn ended(mut driver: Driver<'_, '_>, ending: Ending, effort: Effort) -> Candidate {
     if ending != Ending::Done
         && let Some(best) = driver.best()
     {

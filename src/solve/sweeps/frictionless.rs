@@ -3,7 +3,6 @@
 use super::driver::{Driver, LARGEST_FACTOR};
 use super::swept::Swept;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Monitor;
 use crate::problem::BoundedLcp;
 use crate::solve::part::ContactLcp;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
@@ -13,9 +12,9 @@ use crate::solve::result::{Call, Candidate, Effort, Ending};
 const TIGHTENING: f64 = 0.1;
 
 /// Solves a problem.
-pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
+pub fn frictionless(call: &Call<'_>) -> Candidate {
     let (contact, settings) = (call.contact, call.settings);
-    let condensed = match ContactLcp::new(contact, monitor) {
+    let condensed = match ContactLcp::new(contact, call.monitor) {
         Ok(condensed) => condensed,
         Err(why) => return Candidate::without_displacements(contact, why),
     };
@@ -32,7 +31,7 @@ pub fn frictionless(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Candidate {
     let x = condensed.clearances(&call.start_or_zero()).into_iter().enumerate();
     let x = x.map(|(i, x)| lcp.admissible(i, x)).collect();
     let swept = Swept { contact, working: None, clearances: Some(lcp) };
-    let mut driver = Driver::new((swept, x), settings, LARGEST_FACTOR, monitor);
+    let mut driver = Driver::new(call, (swept, x), LARGEST_FACTOR);
     let mut target = settings.tolerance;
     loop {
         let ending = driver.solve(target).err().unwrap_or(Ending::Done);

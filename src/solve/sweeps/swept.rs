@@ -10,7 +10,7 @@ use crate::certificate::{eta_of, is_escape_of, lifts};
 use crate::law::{Contact, PairLaw, lift};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::problem::{BoundedLcp, FreeBlock};
 use crate::solve::rigid::escape;
 
@@ -20,7 +20,7 @@ pub fn sweep_in_time(
     matrix: Matrix<'_>,
     (d, force): (&mut [f64], &mut [f64]),
     (sweeps, omega): (usize, f64),
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) {
     for _ in 0..sweeps {
         if monitor.is_late() {
@@ -127,7 +127,7 @@ impl Swept<'_> {
     ///
     /// Components that did not move are taken as fixed. If the matrix is singular on the others, its factor tells which of
     /// them depend on the rest: the null vector that agrees with the drift on these has none of the drift's elastic part.
-    pub fn recession(&self, drift: &[f64], monitor: &mut Monitor<'_>) -> Option<Vec<f64>> {
+    pub fn recession(&self, drift: &[f64], monitor: &dyn Watch) -> Option<Vec<f64>> {
         let contact = self.contact;
         if self.clearances.is_some() {
             return escape(contact, monitor);

@@ -1,12 +1,11 @@
 //! The proof, on request, that a solution exists where a method has found one.
 
 use crate::certificate::{errors, measure, prove_parts};
-use crate::monitor::Monitor;
 use crate::solve::result::{Call, Errors, Existence, Solution, Status};
 
 /// Tries to prove that there is a solution with the states of this one. If there is, the result becomes the
 /// middle of its enclosure.
-pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'_>) {
+pub fn examine(call: &Call<'_>, solution: &mut Solution) {
     let contact = call.contact;
     solution.existence = Existence::NotProved;
     if solution.status != Status::Solved {
@@ -14,7 +13,7 @@ pub fn examine(call: &Call<'_>, solution: &mut Solution, monitor: &mut Monitor<'
     }
     let parts = (solution.d.as_slice(), solution.d_low.as_slice());
     let states = &solution.certificate.states;
-    let proof = prove_parts(contact, parts, states, &mut monitor.asking());
+    let proof = prove_parts(contact, parts, states, &mut call.monitor.asking());
     let Some(proof) = proof else { return };
     // The displacements become those of the proof, unless their certificate, which rounds, does not agree.
     let tolerance = call.settings.tolerance;

@@ -14,46 +14,41 @@
 //! Under the collinear rule friction is not monotone, and nothing is proved.
 
 use super::difference::MARGIN;
-use crate::law::Contact;
 use crate::linalg::eigen::{is_below, largest_eigenvalue};
 use crate::linalg::factor::Factor;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::watched::{BLOCK, GoesOn};
-use crate::monitor::Monitor;
+use crate::solve::result::Call;
 
 /// The factor of `K`, scaled to a unit diagonal, if it is positive definite, and if there is time for it.
-pub fn scaled_factor(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> Option<Factor> {
-    let matrix = contact.problem().stiffness();
-    if !contact.problem().is_symmetric() {
+pub fn scaled_factor(call: &Call<'_>) -> Option<Factor> {
+    let problem = call.contact.problem();
+    let matrix = problem.stiffness();
+    if !problem.is_symmetric() {
         return None;
     }
-    let root = contact.problem().unit_roots();
+    let root = problem.unit_roots();
     let fill = |j: usize, column: &mut [f64]| {
         for (i, (entry, k)) in column.iter_mut().zip(matrix.column(j)).enumerate() {
             *entry = k / (root[i] * root[j]);
         }
     };
-    Factor::new(matrix.size(), true, SINGULAR, fill, &mut monitor.asking())
+    Factor::new(matrix.size(), true, SINGULAR, fill, &mut call.monitor.asking())
 }
 
 /// True if the solution is proved to be the only one: `K` is positive definite, and `g -> mu p` is
 /// constant or a contraction. When the time is up, or the caller has cancelled, nothing is proved.
-pub fn is_unique(contact: &Contact<'_>, monitor: &mut Monitor<'_>) -> bool {
-    let Some(mut factor) = scaled_factor(contact, monitor) else { return false };
-    let laws = contact.pairs();
+pub fn is_unique(call: &Call<'_>) -> bool {
+    let Some(mut factor) = scaled_factor(call) else { return false };
+    let laws = call.contact.pairs();
     let coupled: Vec<usize> = (0..laws.len()).filter(|&i| laws[i].is_coupled()).collect();
     coupled.is_empty()
-        || (!contact.has_collinear_slip()
-            && is_contraction(contact, &mut factor, &coupled, monitor))
+        || (!call.contact.has_collinear_slip() && is_contraction(call, &mut factor, &coupled))
 }
 
-fn is_contraction(
-    contact: &Contact<'_>,
-    factor: &mut Factor,
-    coupled: &[usize],
-    monitor: &mut Monitor<'_>,
-) -> bool {
+fn is_contraction(call: &Call<'_>, factor: &mut Factor, coupled: &[usize]) -> bool {
+    let (contact, monitor) = (call.contact, call.monitor);
     let (matrix, dim) = (contact.problem().stiffness(), contact.dim());
     let (n, m, tangents) = (matrix.size(), coupled.len(), dim - 1);
     // Column `a` belongs to the tangent `a % tangents` of the pair `coupled[a / tangents]`.

@@ -53,7 +53,6 @@ use super::path::{self, LemkeRules};
 use super::scaled::Scaled;
 use crate::certificate::is_escape_of;
 use crate::error::Error;
-use crate::monitor::Monitor;
 use crate::solve::newton::from_pieces;
 use crate::solve::part::ContactLcp;
 use crate::solve::result::{Call, Candidate, Ending};
@@ -75,15 +74,15 @@ const END: f64 = 1e-10;
 
 /// Solves a problem without friction, or in 2D: follows a path to its end, and polishes the solution there. It needs no
 /// start.
-pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Error> {
+pub fn solve(call: &Call<'_>) -> Result<Candidate, Error> {
     let (contact, settings) = (call.contact, call.settings);
-    let lcp = match ContactLcp::new(contact, monitor) {
+    let lcp = match ContactLcp::new(contact, call.monitor) {
         Ok(lcp) => lcp,
         Err(why) => return Ok(Candidate::without_displacements(contact, why)),
     };
     let usual = LemkeRules::usual(false);
     let rules = if contact.is_frictionless() { usual } else { LemkeRules { end: END, ..usual } };
-    let run = path::follow(&scaled(&lcp, COHESIONS[0]), rules, monitor)?;
+    let run = path::follow(&scaled(&lcp, COHESIONS[0]), rules, call.monitor)?;
     let d = lcp.displacements(&run.z);
     let ending = match run.ending {
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
@@ -91,18 +90,18 @@ pub fn solve(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Candidate, Er
         Ending::Recession(ray) => {
             let motion = lcp.motion(&ray);
             let proves = is_escape_of(contact, &motion);
-            let balanced = if proves { None } else { rigid::escape_behind_others(call, monitor) };
+            let balanced = if proves { None } else { rigid::escape_behind_others(call) };
             Ending::Recession(balanced.unwrap_or(motion))
         }
         other => other,
     };
     let mut candidate = Candidate::of_displacements(contact, d, ending);
     if candidate.ending == Ending::Done
-        && !monitor.is_late()
+        && !call.monitor.is_late()
         && !(contact.is_frictionless() && candidate.is_settled(contact, settings.tolerance))
     {
         let (pieces, d) = (lcp.pieces(&run.z), candidate.d().to_vec());
-        let mut refined = from_pieces(&call.from(&d), &pieces, monitor);
+        let mut refined = from_pieces(&call.from(&d), &pieces);
         refined.ending = Ending::Done;
         if refined.certificate(contact).eta <= candidate.certificate(contact).eta {
             candidate = refined;
@@ -121,18 +120,18 @@ fn scaled<'l>(lcp: &'l ContactLcp<'_>, cohesion: [f64; 2]) -> Scaled<'l> {
 
 /// Ends of the path from several starts, and what Newton's method makes of its turning points: all
 /// solutions that the path shows.
-pub fn ends(call: &Call<'_>, monitor: &mut Monitor<'_>) -> Result<Vec<Candidate>, Error> {
-    let Ok(lcp) = ContactLcp::new(call.contact, monitor) else { return Ok(Vec::new()) };
+pub fn ends(call: &Call<'_>) -> Result<Vec<Candidate>, Error> {
+    let Ok(lcp) = ContactLcp::new(call.contact, call.monitor) else { return Ok(Vec::new()) };
     let mut ends = Vec::new();
     let rules = LemkeRules { end: END, turns: TURNS, ..LemkeRules::usual(false) };
     for cohesion in COHESIONS {
-        if monitor.is_late() {
+        if call.monitor.is_late() {
             break;
         }
-        let run = path::follow(&scaled(&lcp, cohesion), rules, monitor)?;
+        let run = path::follow(&scaled(&lcp, cohesion), rules, call.monitor)?;
         for z in run.turns.iter().chain((run.ending == Ending::Done).then_some(&run.z)) {
             let (pieces, d) = (lcp.pieces(z), lcp.displacements(z));
-            ends.push(from_pieces(&call.from(&d), &pieces, monitor));
+            ends.push(from_pieces(&call.from(&d), &pieces));
         }
     }
     Ok(ends)

@@ -19,7 +19,7 @@ use super::scaled::Scaled;
 use super::tableau::Tableau;
 use crate::error::Error;
 use crate::linalg::tolerances::{NEGLIGIBLE, ROUNDING};
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::result::Ending;
 
 /// Result of a run.
@@ -75,7 +75,7 @@ impl LemkeRules {
 pub fn follow(
     problem: &Scaled<'_>,
     rules: LemkeRules,
-    monitor: &mut Monitor<'_>,
+    monitor: &dyn Watch,
 ) -> Result<LemkeRun, Error> {
     let n = problem.size();
     let tableau = match Tableau::new(problem, monitor) {
@@ -86,8 +86,9 @@ pub fn follow(
             return Ok(LemkeRun { z, ending, turns, refactorisations: 0 });
         }
     };
-    let mut path = Path { problem, tableau, rules, turns: Vec::new(), refactorisations: 0 };
-    let ending = path.run(monitor).unwrap_or_else(|ending| ending);
+    let mut path =
+        Path { problem, tableau, rules, monitor, turns: Vec::new(), refactorisations: 0 };
+    let ending = path.run().unwrap_or_else(|ending| ending);
     let turns = path.turns.iter().map(|z| problem.unscaled(z.iter().copied())).collect();
     let z = problem.unscaled((n..2 * n).map(|z| path.tableau.value(z)));
     Ok(LemkeRun { z, ending, turns, refactorisations: path.refactorisations })
@@ -98,13 +99,14 @@ struct Path<'p> {
     problem: &'p Scaled<'p>,
     tableau: Tableau,
     rules: LemkeRules,
+    monitor: &'p dyn Watch,
     turns: Vec<Vec<f64>>,
     refactorisations: u64,
 }
 
 impl Path<'_> {
     /// Follows the path to its end; `Err`: it ends where something failed.
-    fn run(&mut self, monitor: &mut Monitor<'_>) -> Result<Ending, Ending> {
+    fn run(&mut self) -> Result<Ending, Ending> {
         let n = self.problem.size();
         let z0 = 2 * n;
         // The path ends when one of these leaves.
@@ -113,7 +115,7 @@ impl Path<'_> {
         let (mut start, mut pivots) = (None, 0);
         loop {
             let work = self.tableau.pivot_work();
-            monitor.step().and_then(|()| monitor.affords(work))?;
+            self.monitor.step().and_then(|()| self.monitor.affords(work))?;
             pivots += 1;
             let leaving = self.tableau.basic[row];
             self.tableau.pivot(row, entering);
@@ -122,7 +124,7 @@ impl Path<'_> {
             let thorough = self.rules.thorough || (n <= FEW && pivots > n as u64);
             let interval = if thorough { CHECK / 2 } else { CHECK };
             if ended || pivots % interval == 0 {
-                self.check(thorough, monitor)?;
+                self.check(thorough)?;
             }
             if ended {
                 return Ok(Ending::Done);
@@ -159,17 +161,17 @@ impl Path<'_> {
     }
 
     /// Refines the values, and refactorises where they have drifted, or always.
-    fn check(&mut self, always: bool, monitor: &mut Monitor<'_>) -> Result<(), Ending> {
-        monitor.affords(self.tableau.refinement_work())?;
+    fn check(&mut self, always: bool) -> Result<(), Ending> {
+        self.monitor.affords(self.tableau.refinement_work())?;
         let drift = self.tableau.refine(self.problem);
-        monitor.goes_on()?;
+        self.monitor.goes_on()?;
         if drift <= DRIFT && !always {
             return Ok(());
         }
-        monitor.affords(self.tableau.refactorisation_work())?;
+        self.monitor.affords(self.tableau.refactorisation_work())?;
         self.refactorisations += 1;
-        let done = self.tableau.refactorise(self.problem, &mut monitor.asking());
-        done.ok_or_else(|| monitor.stop().map_or(BREAKDOWN, Ending::Stopped))
+        let done = self.tableau.refactorise(self.problem, &mut self.monitor.asking());
+        done.ok_or_else(|| self.monitor.stop().map_or(BREAKDOWN, Ending::Stopped))
     }
 }
 
@@ -178,6 +180,7 @@ mod tests {
     use super::*;
     use crate::linalg::matrix::Matrix;
     use crate::linalg::vector::largest_of;
+    use crate::monitor::Monitor;
 
     /// Both ways of keeping the tableau end at the one solution of a definite problem. `M = B Bᵀ / n + 1`
     /// has a condition number of about 10, so that rounding is far below 1e-10 of `z`.

@@ -18,7 +18,7 @@ use crate::linalg::simd;
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::BLOCK;
-use crate::monitor::Monitor;
+use crate::monitor::Watch;
 use crate::solve::result::Ending;
 
 /// The tableau in a basis.
@@ -54,7 +54,7 @@ pub(super) const MEMORY: f64 = 100.0;
 
 impl Tableau {
     /// The tableau in which the `w` are basic. `Err`: there is no time or no memory for it, or its numbers are none.
-    pub fn new(problem: &Scaled<'_>, monitor: &mut Monitor<'_>) -> Result<Self, Ending> {
+    pub fn new(problem: &Scaled<'_>, monitor: &dyn Watch) -> Result<Self, Ending> {
         let n = problem.size();
         monitor.affords(MEMORY * (n as f64).powi(2))?;
         // Columns begin one line of the cache further, on different cache sets even where `n` is a power of two.
