@@ -63,9 +63,9 @@ pub fn congruence(
 
 /// The columns of `W` that `A` resists with no more than rounding.
 struct Unresisted {
-    /// The place of each column of `W` among them.
-    places: Vec<Option<usize>>,
-    /// Their columns of `|W|ᵀ |A| |W|`: the sizes of the terms.
+    /// The place of each column of `W` among them; behind all of them that of the others.
+    places: Vec<usize>,
+    /// Their columns of `|W|ᵀ |A| |W|`, the sizes of the terms, and an empty one.
     sizes: Csc,
 }
 
@@ -85,26 +85,23 @@ impl Unresisted {
             return Ok(None);
         }
         let sizes = sizes_of_terms(lower, w, &weak)?;
-        let mut places = vec![None; w.ncols()];
+        let mut places = vec![weak.len(); w.ncols()];
         for (k, &j) in weak.iter().enumerate() {
-            let is_rounding = energy(j).abs() <= ROUNDING * value_at(&sizes, j, k);
-            places[j] = is_rounding.then_some(k);
+            if energy(j).abs() <= ROUNDING * value_at(&sizes, j, k) {
+                places[j] = k;
+            }
         }
         Ok(Some(Unresisted { places, sizes }))
     }
 
     /// `true` if a `value` of the product belongs to one of the columns, and is rounding.
     fn is_rounding(&self, (i, j): (usize, usize), value: f64) -> bool {
-        // A column that is none of them has no rounding.
-        let size = |row, column: usize| match self.places[column] {
-            Some(place) => value_at(&self.sizes, row, place),
-            None => f64::NEG_INFINITY,
-        };
+        let size = |row, column: usize| value_at(&self.sizes, row, self.places[column]);
         value.abs() <= ROUNDING * size(i, j).max(size(j, i))
     }
 }
 
-/// `|W|ᵀ |A|` times some columns of `|W|`; `lower` is `H`.
+/// `|W|ᵀ |A|` times some columns of `|W|`, and an empty column; `lower` is `H`.
 fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfMemory> {
     let half = absolute(lower);
     let mirrored = entries(&half).flat_map(|(i, j, value)| [(i, j, value), (j, i, value)]);
@@ -112,6 +109,6 @@ fn sizes_of_terms(lower: &Csc, w: &Csc, columns: &[usize]) -> Result<Csc, OutOfM
     let w = absolute(w);
     let some = columns.iter().enumerate();
     let some = some.flat_map(|(k, &j)| entries_of(&w, j).map(move |(i, value)| (i, k, value)));
-    let chosen = from_entries((w.nrows(), columns.len()), some)?;
+    let chosen = from_entries((w.nrows(), columns.len() + 1), some)?;
     product(&transposed(&w)?, &product(&whole, &chosen)?)
 }
