@@ -51,7 +51,7 @@ pub fn congruence(
             let (part, row) =
                 if i < columns { (&mut leading, i) } else { (&mut below, i - columns) };
             let value = one + other;
-            let rounding = unresisted.as_ref().is_some_and(|of| of.is_rounding((i, j), value));
+            let rounding = unresisted.is_rounding((i, j), value);
             part.row.push(row);
             part.values.push(if rounding { 0.0 } else { value });
         }
@@ -70,8 +70,8 @@ struct Unresisted {
 }
 
 impl Unresisted {
-    /// Looks among the first `columns` of `W`; `None` if there is none. `lower` is `H`, and `half` is `H W`.
-    fn new(lower: &Csc, w: &Csc, half: &Csc, columns: usize) -> Result<Option<Self>, OutOfMemory> {
+    /// Looks among the first `columns` of `W`. `lower` is `H`, and `half` is `H W`.
+    fn new(lower: &Csc, w: &Csc, half: &Csc, columns: usize) -> Result<Self, OutOfMemory> {
         // No term of a semi-definite matrix is larger than these roots allow, so that few columns are looked at.
         let roots: Vec<f64> = diagonals(lower).map(|half| (2.0 * half).abs().sqrt()).collect();
         let energy = |j: usize| {
@@ -81,17 +81,17 @@ impl Unresisted {
             entries_of(w, j).map(|(i, value)| value.abs() * roots[i]).sum::<f64>().powi(2)
         };
         let weak: Vec<usize> = (0..columns).filter(|&j| energy(j) < ROUNDING * most(j)).collect();
-        if weak.is_empty() {
-            return Ok(None);
-        }
-        let sizes = sizes_of_terms(lower, w, &weak)?;
+        let sizes = match weak.is_empty() {
+            true => from_entries((w.ncols(), 1), std::iter::empty())?,
+            false => sizes_of_terms(lower, w, &weak)?,
+        };
         let mut places = vec![weak.len(); w.ncols()];
         for (k, &j) in weak.iter().enumerate() {
             if energy(j).abs() <= ROUNDING * value_at(&sizes, j, k) {
                 places[j] = k;
             }
         }
-        Ok(Some(Unresisted { places, sizes }))
+        Ok(Unresisted { places, sizes })
     }
 
     /// `true` if a `value` of the product belongs to one of the columns, and is rounding.
