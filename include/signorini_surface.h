@@ -78,8 +78,8 @@ extern "C" {
  */
 #define SIGNORINI_RIMS_KEEP 1
 /**
- * As SIGNORINI_RIMS_FOLD, of nodes with less than three tenths of their area: more pairs resolve
- * the rim, and pressures that are not uniform have up to twice the errors there.
+ * As SIGNORINI_RIMS_FOLD, of all nodes with less than three tenths of their area: more pairs
+ * resolve the rim, and pressures that are not uniform have up to twice the errors there.
  */
 #define SIGNORINI_RIMS_FOLD_LITTLE 2
 

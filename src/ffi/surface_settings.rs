@@ -41,8 +41,8 @@ pub const SIGNORINI_RIMS_FOLD: i32 = 0;
 /// They keep pairs of their own with small areas. Uniform pressure stays exact; other pressures may
 /// be large there, as the rows reach into the air. Below a millionth they are folded all the same.
 pub const SIGNORINI_RIMS_KEEP: i32 = 1;
-/// As SIGNORINI_RIMS_FOLD, of nodes with less than three tenths of their area: more pairs resolve
-/// the rim, and pressures that are not uniform have up to twice the errors there.
+/// As SIGNORINI_RIMS_FOLD, of all nodes with less than three tenths of their area: more pairs
+/// resolve the rim, and pressures that are not uniform have up to twice the errors there.
 pub const SIGNORINI_RIMS_FOLD_LITTLE: i32 = 2;
 
 /// How surfaces are paired. Fill it by signorini_surface_settings_default(), then change what you
