@@ -65,6 +65,39 @@ impl Bounds {
 pub(super) struct Wall {
     pub(super) along: Vector3,
     pub(super) most: f64,
+    /// It may be tilted by parts between these of another direction, about the height along that.
+    pub(super) tilts: [f64; 2],
+    pub(super) normal: Vector3,
+    pub(super) height: f64,
+}
+
+impl Wall {
+    /// Leaves the tilts with which it holds a face too.
+    pub(super) fn hold(&mut self, Hull { points, margin }: Hull<'_>) {
+        let size = self.along.norm();
+        let margin = margin * size;
+        for x in points {
+            let beyond = self.along.dot(x) - self.most + margin;
+            let height = self.normal.dot(x) - self.height;
+            // Points of the line about which it tilts are off that by rounding.
+            if beyond.abs().max(height.abs()) > TOUCH * x.amax() * size {
+                let most = -beyond.min(0.0) / (height.abs() + margin);
+                let [low, high] = &mut self.tilts;
+                *low = if height < margin { low.max(-most) } else { *low };
+                *high = if height > -margin { high.min(most) } else { *high };
+            }
+        }
+    }
+
+    /// As nearly along a normal as it may be.
+    fn tilted(&self, normal: &Vector3) -> (Vector3, f64) {
+        if self.tilts == [0.0; 2] {
+            return (self.along, self.most);
+        }
+        let tilt = -self.along.dot(normal) / self.normal.dot(normal);
+        let tilt = tilt.max(self.tilts[0]).min(self.tilts[1]);
+        (self.along + tilt * self.normal, self.most + tilt * self.height)
+    }
 }
 
 /// Points, and how far beyond them what they stand for may reach.
@@ -162,11 +195,12 @@ impl<'a> Sweep<'a> {
         if wall.along == Vector3::zeros() {
             return true;
         }
-        let moves = self.normal.dot(&wall.along);
+        let (along, most) = wall.tilted(&self.normal);
+        let moves = self.normal.dot(&along);
         let [back, forward] = self.reach;
         let Hull { points, margin } = self.hull;
-        let most = wall.most + (self.touch + margin) * wall.along.norm();
+        let most = most + (self.touch + margin) * along.norm();
         let most = most - (-back * moves).min(forward * moves);
-        points.iter().any(|x| wall.along.dot(x) < most)
+        points.iter().any(|x| along.dot(x) < most)
     }
 }

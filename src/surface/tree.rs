@@ -7,6 +7,7 @@
 
 use super::face::Face;
 use super::mesh::Side;
+use super::shape::{BEYOND, MANY_FACES};
 use super::sweep::{Bounds, Hull, Sweep, Wall};
 use crate::linalg::vector3::Vector3;
 
@@ -39,6 +40,8 @@ pub(super) struct Tree<'a> {
     boxes: Vec<Bounds>,
     order: Vec<usize>,
     branches: Vec<Branch>,
+    /// In some nodes many faces meet: all touch the line over which one moves, and walls along it tell them from each other.
+    has_hubs: bool,
 }
 
 impl<'a> Tree<'a> {
@@ -46,7 +49,10 @@ impl<'a> Tree<'a> {
         let count = side.count();
         let boxes = (0..count).map(|at| Hull::of(&side.face(at)).bounds()).collect();
         let order = (0..count).collect();
-        let mut tree = Tree { side, boxes, order, branches: Vec::new() };
+        let mut faces = vec![0; side.coordinates.len() / side.dim];
+        side.faces.nodes.iter().for_each(|&node| faces[node] += 1);
+        let has_hubs = faces.iter().any(|&faces| faces > MANY_FACES);
+        let mut tree = Tree { side, boxes, order, branches: Vec::new(), has_hubs };
         if count > 0 {
             tree.grow(0..count);
         }
@@ -69,7 +75,14 @@ impl<'a> Tree<'a> {
     /// Looks behind the box of a branch for the first time.
     fn open(&mut self, place: usize) -> Inside {
         let faces = self.branches[place].faces.clone();
-        let walls = self.walls(&self.order[faces.clone()]);
+        let mut walls = self.walls(&self.order[faces.clone()]);
+        if self.has_hubs {
+            walls.iter_mut().for_each(|wall| wall.tilts = [-1.0 / BEYOND, 1.0 / BEYOND]);
+            for &at in &self.order[faces.clone()] {
+                let face = self.side.face(at);
+                walls.iter_mut().for_each(|wall| wall.hold(Hull::of(&face)));
+            }
+        }
         let halves = (faces.len() > LEAF).then(|| {
             let boxes = &self.boxes;
             let part = &mut self.order[faces.clone()];
@@ -175,8 +188,12 @@ fn edges(face: &Face<'_>) -> Vec<Wall> {
     }
     let normal = face.middle_normal();
     let wall = |[from, to]: [usize; 2]| {
-        let along = (face.x[to] - face.x[from]).cross(&normal);
-        Wall { along, most: along.dot(&face.x[from]) }
+        let edge = face.x[to] - face.x[from];
+        let along = edge.cross(&normal);
+        // The normal of a sliver leans along its edge by more than rounding.
+        let normal = along.cross(&edge) / edge.norm_squared();
+        let (most, height) = (along.dot(&face.x[from]), normal.dot(&face.x[from]));
+        Wall { along, most, normal, height, ..Wall::default() }
     };
     face.kind.edges().map(wall).filter(|wall| wall.along != Vector3::zeros()).collect()
 }

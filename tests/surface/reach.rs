@@ -128,7 +128,7 @@ fn slivers_at_a_rim_have_rows_of_few_weights() {
 
 /// The search looks at a number of boxes that grows as `n log n`: sixteen times the faces, with a
 /// logarithm that doubles at most, cost at most 32 times as many, and all against all 256 times. Slivers
-/// that meet in a point, needles that lean, and a search distance far above the bodies.
+/// that meet in a point, in a plane and aslant, needles that lean, and a search distance far above the bodies.
 #[test]
 fn slivers_needles_and_large_distances_are_nearly_linear() {
     let square = |cells: usize, height: f64| {
@@ -142,7 +142,9 @@ fn slivers_needles_and_large_distances_are_nearly_linear() {
         })
     };
     type Family<'a> = (&'a str, &'a dyn Fn(usize) -> [Sheet; 2], Option<f64>);
-    let families: [Family<'_>; 3] = [
+    let cone = |n: usize| fan(n, 0.0).mapped(|[x, y, _]| [x, y, -0.2 * x.hypot(y)]);
+    let families: [Family<'_>; 4] = [
+        ("slivers on a cone", &|n| [cone(n).turned(), cone(n + n / 3)], None),
         ("slivers", &|n| [fan(n, 1e-3).turned(), fan(n + n / 3, 0.0)], None),
         ("needles", &|n| [needles(n, 1e-3).turned(), needles(n + n / 3, 0.0)], None),
         (
