@@ -1,6 +1,6 @@
 //! Small least-squares problems: a few columns, of which some may depend on others.
 
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::{DMatrix, DVector};
 
 use super::gmres::{orthogonalised, solve_triangle};
 use super::tolerances::ROUNDING;
@@ -23,8 +23,7 @@ pub type Column = DVector<f64>;
 /// Columns of which some may depend on others, for many targets.
 pub struct Nearest {
     columns: DMatrix<f64>,
-    factors: SVD<f64, Dyn, Dyn>,
-    least: f64,
+    inverse: DMatrix<f64>,
     /// A basis of the coefficients that change nothing.
     free: DMatrix<f64>,
 }
@@ -37,13 +36,22 @@ impl Nearest {
         let rows = columns[0].len().max(count);
         let entry = |i: usize, j: usize| columns[j].get(i).copied().unwrap_or(0.0);
         let columns = DMatrix::from_fn(rows, count, entry);
+        let (basis, triangle) = columns.clone().qr().unpack();
+        let inverse = triangle.solve_upper_triangular(&DMatrix::identity(count, count));
+        // The norms are larger than the most and the inverse of the least: often they tell that nothing is free.
+        let tells = |inverse: &DMatrix<f64>| part * triangle.norm() * inverse.norm() < 1.0;
+        if let Some(inverse) = inverse.filter(tells) {
+            let (inverse, free) = (inverse * basis.transpose(), DMatrix::zeros(count, 0));
+            return Nearest { columns, inverse, free };
+        }
         let factors = columns.clone().svd(true, true);
         let least = part * factors.singular_values.max();
         let right = factors.v_t.as_ref().expect("both factors are there");
         // In descending order.
         let held = factors.singular_values.iter().filter(|size| **size > least).count();
         let free = right.rows(held, count - held).transpose();
-        Nearest { columns, factors, least, free }
+        let inverse = factors.pseudo_inverse(least).expect("both factors are there");
+        Nearest { columns, inverse, free }
     }
 
     /// True if some coefficients change nothing.
@@ -56,7 +64,7 @@ impl Nearest {
     pub fn improve(&self, found: &mut DVector<f64>, target: &[f64]) {
         let mut left = -(&self.columns * &*found);
         left.iter_mut().zip(target).for_each(|(left, target)| *left += target);
-        *found += self.factors.solve(&left, self.least).expect("both factors are there");
+        *found += &self.inverse * left;
     }
 
     /// Of all coefficients that are as near as some those whose product with a regular matrix, how dear they are, is smallest.

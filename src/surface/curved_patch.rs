@@ -14,46 +14,37 @@ use crate::linalg::vector3::{Vector3, axis};
 /// A tangent that is shorter than this part of its chord, or normals that nearly oppose, tell no arc: the chord is taken.
 const LEAST_TANGENT: f64 = 0.2;
 
-/// A cubic by its control points.
+/// A cubic by its coefficients, lowest first.
 pub(super) type Arc = [Vector3; 4];
 
 /// The arc between two points with normals there.
 pub(super) fn arc([p, q]: [Vector3; 2], normals: [Vector3; 2]) -> Arc {
     let chord = q - p;
     let cos = (0.5 * (1.0 + normals[0].dot(&normals[1])).max(0.0)).sqrt();
+    let least = LEAST_TANGENT * LEAST_TANGENT * chord.norm_squared();
     let [from, to] = normals.map(|normal| {
         let tangent = chord - chord.dot(&normal) * normal;
-        if cos > LEAST_TANGENT && tangent.norm() > LEAST_TANGENT * chord.norm() {
-            tangent * (2.0 / 3.0 / ((1.0 + cos) * cos))
+        if cos > LEAST_TANGENT && tangent.norm_squared() > least {
+            tangent * (2.0 / ((1.0 + cos) * cos))
         } else {
-            chord / 3.0
+            chord
         }
     });
-    [p, p + from, q - to, q]
+    [p, from, 3.0 * chord - to - 2.0 * from, from + to - 2.0 * chord]
 }
 
 /// The point of an arc at `t` in 0..1, and its derivative.
-pub(super) fn on_arc([p, a, b, q]: &Arc, t: f64) -> (Vector3, Vector3) {
-    let s = 1.0 - t;
-    let point = s * s * s * p + 3.0 * s * t * (s * a + t * b) + t * t * t * q;
-    let slope = s * s * (a - p) + 2.0 * s * t * (b - a) + t * t * (q - b);
-    (point, 3.0 * slope)
-}
-
-/// A part of a face.
-#[derive(Clone, Debug)]
-enum Form {
-    Arc(Arc),
-    /// The arcs from corner to corner, and the control point in the middle.
-    Triangle([Arc; 3], Vector3),
-    /// The arcs along the first coordinate, those along the second, and what is between that no edge has.
-    Quadrilateral([Arc; 2], [Arc; 2], Vector3),
+#[inline]
+pub(super) fn on_arc([a, b, c, d]: &Arc, t: f64) -> (Vector3, Vector3) {
+    (a + t * (b + t * (c + t * d)), b + t * (2.0 * c + 3.0 * t * d))
 }
 
 /// A part of a face.
 #[derive(Clone, Debug)]
 struct Piece {
-    form: Form,
+    /// The coefficients of its places: of each component by powers of the second coordinate, beside each other by those of the first.
+    places: [[[f64; 4]; 4]; 3],
+    is_triangle: bool,
     /// Its own coordinates, from 0 to 1, are those of the face less this,
     from: Local,
     /// times these rows.
@@ -88,80 +79,98 @@ impl Patch {
             let b = if face.kind.is_line() { [0.0, 1.0] } else { b };
             let area = a[0] * b[1] - a[1] * b[0];
             let by = [[b[1] / area, -b[0] / area], [-a[1] / area, a[0] / area]];
-            Piece { form: form(face, nodes, normals), from: origin, by }
+            let is_triangle = nodes.len() == FaceKind::T3.corners();
+            let arcs = places_of(face, nodes, normals);
+            let places = [0, 1, 2].map(|c| [0, 1, 2, 3].map(|j| arcs.map(|arc| arc[j][c])));
+            Piece { places, is_triangle, from: origin, by }
         };
         Patch(parts(face.kind).iter().map(piece).collect())
     }
 
     /// The point at local coordinates of the face, and its derivatives by them; across a line that along the third axis.
+    #[inline]
     pub(super) fn at(&self, local: Local) -> (Vector3, [Vector3; 2]) {
-        let own = |piece: &Piece| {
+        let own = self.0.iter().map(|piece| {
             let [s, t] = [0, 1].map(|c| local[c] - piece.from[c]);
-            piece.by.map(|row| row[0] * s + row[1] * t)
-        };
-        let inside = |piece: &Piece| piece.form.inside(own(piece));
-        let best = self.0.iter().max_by(|a, b| inside(a).total_cmp(&inside(b)));
-        let piece = best.expect("a face has parts");
-        let (point, [by_first, by_second]) = piece.form.at(own(piece));
-        let along = |c: usize| piece.by[0][c] * by_first + piece.by[1][c] * by_second;
-        (point, [along(0), along(1)])
+            let [s, t] = piece.by.map(|row| row[0] * s + row[1] * t);
+            let across = if piece.is_triangle { 1.0 - s - t } else { (1.0 - s).min(1.0 - t) };
+            (s.min(t).min(across), [s, t], piece)
+        });
+        let best = own.max_by(|(inside, ..), (other, ..)| inside.total_cmp(other));
+        let (_, [s, t], Piece { places, by, .. }) = best.expect("a face has parts");
+        let (powers, slopes) = ([1.0, s, s * s, s * s * s], [0.0, 1.0, 2.0 * s, 3.0 * s * s]);
+        let (mut point, mut by_first, mut by_second) = <[Vector3; 3]>::default().into();
+        for (c, [low, one, two, three]) in places.iter().enumerate() {
+            for i in 0..4 {
+                let place = low[i] + t * (one[i] + t * (two[i] + t * three[i]));
+                point[c] += place * powers[i];
+                by_first[c] += place * slopes[i];
+                by_second[c] += (one[i] + t * (2.0 * two[i] + 3.0 * t * three[i])) * powers[i];
+            }
+        }
+        (point, [0, 1].map(|c| by[0][c] * by_first + by[1][c] * by_second))
     }
 }
 
-fn form(face: &Face<'_>, nodes: &[usize], normals: &[Vector3; MOST_NODES]) -> Form {
-    let arc = |i: usize, j: usize| {
-        arc([i, j].map(|i| face.x[nodes[i]]), [i, j].map(|i| normals[nodes[i]]))
-    };
-    match nodes.len() {
-        2 => Form::Arc(arc(0, 1)),
-        3 => {
-            let arcs = [arc(0, 1), arc(1, 2), arc(2, 0)];
-            let corners: Vector3 = arcs.iter().map(|arc| arc[0]).sum::<Vector3>() / 3.0;
-            let edges: Vector3 = arcs.iter().map(|arc| arc[1] + arc[2]).sum::<Vector3>() / 6.0;
-            Form::Triangle(arcs, edges + 0.5 * (edges - corners))
-        }
+/// The coefficients of a part, about its first corner: coordinates lose no digits to those of the whole body.
+fn places_of(face: &Face<'_>, nodes: &[usize], normals: &[Vector3; MOST_NODES]) -> [Arc; 4] {
+    let origin = face.x[nodes[0]];
+    let (x, normal) = (|i: usize| face.x[nodes[i]] - origin, |i: usize| normals[nodes[i]]);
+    let arc = |i: usize, j: usize| arc([x(i), x(j)], [normal(i), normal(j)]);
+    let mut places = match nodes.len() {
+        2 => from_edges(arc(0, 1), [Vector3::zeros(), axis(2), Vector3::zeros(), Vector3::zeros()]),
+        3 => triangle([arc(0, 1), arc(1, 2), arc(0, 2)]),
         _ => {
-            let corners = [0, 1, 2, 3].map(|i| face.x[nodes[i]]);
-            let bulge = bulge(corners, [0, 1, 2, 3].map(|i| normals[nodes[i]]));
-            Form::Quadrilateral([arc(0, 1), arc(3, 2)], [arc(0, 3), arc(1, 2)], bulge)
+            let bulge = bulge([0, 1, 2, 3].map(x), [0, 1, 2, 3].map(normal));
+            quadrilateral([arc(0, 1), arc(3, 2)], [arc(0, 3), arc(1, 2)], bulge)
         }
-    }
+    };
+    places[0][0] += origin;
+    places
 }
 
-impl Form {
-    /// How far a point is inside; negative outside.
-    fn inside(&self, [s, t]: Local) -> f64 {
-        match self {
-            Form::Arc(_) => s.min(1.0 - s),
-            Form::Triangle(..) => s.min(t).min(1.0 - s - t),
-            Form::Quadrilateral(..) => s.min(t).min(1.0 - s).min(1.0 - t),
-        }
-    }
+/// The sum of two arcs from the origin, one along each coordinate.
+fn from_edges(first: Arc, second: Arc) -> [Arc; 4] {
+    let mut places =
+        first.map(|along| [along, Vector3::zeros(), Vector3::zeros(), Vector3::zeros()]);
+    places[0] = second;
+    places
+}
 
-    fn at(&self, [s, t]: Local) -> (Vector3, [Vector3; 2]) {
-        match self {
-            Form::Arc(arc) => {
-                let (point, slope) = on_arc(arc, s);
-                (point, [slope, axis(2)])
-            }
-            Form::Triangle(arcs, middle) => in_triangle(arcs, middle, [s, t]),
-            Form::Quadrilateral(along, across, bulge) => {
-                let ([low, high], [left, right]) =
-                    (along.map(|arc| on_arc(&arc, s)), across.map(|arc| on_arc(&arc, t)));
-                // Coons: both pairs of edges, less what is between the corners.
-                let [[a, b], [d, c]] = along.map(|arc| [arc[0], arc[3]]);
-                let (below, above) = ((1.0 - s) * a + s * b, (1.0 - s) * d + s * c);
-                let between = |f: Vector3, g: Vector3, t: f64| (1.0 - t) * f + t * g;
-                let point = between(low.0 - below, high.0 - above, t) + between(left.0, right.0, s);
-                let first = between(low.1 - (b - a), high.1 - (c - d), t) + right.0 - left.0;
-                let second = (high.0 - above) - (low.0 - below) + between(left.1, right.1, s);
-                let (bow, slope) = (|s: f64| s * (1.0 - s), |s: f64| 1.0 - 2.0 * s);
-                let (first, second) =
-                    (first + slope(s) * bow(t) * bulge, second + bow(s) * slope(t) * bulge);
-                (point + bow(s) * bow(t) * bulge, [first, second])
-            }
-        }
+/// The cubic triangle whose first corner is the origin, from the arcs along both coordinates and between them. Its control point in
+/// the middle is as far from the mean of the corners as half more than the mean of those on the arcs.
+fn triangle(arcs @ [first, between, second]: [Arc; 3]) -> [Arc; 4] {
+    let [along, slope, across] = arcs.map(|arc| on_arc(&arc, 1.0).1);
+    let corners = between[0] + on_arc(&between, 1.0).0;
+    let on_arcs: Vector3 = arcs.map(|arc| 2.0 * arc[0] + arc[1] + arc[2] / 3.0).iter().sum();
+    let middle = 1.5 * on_arcs - corners - 2.0 * (first[1] + second[1]);
+    let mut places = from_edges(first, second);
+    places[1][1] = middle;
+    places[2][1] = between[1] + along - second[1] - middle;
+    places[1][2] = across - slope - first[1] - middle;
+    places
+}
+
+/// Coons' patch whose first corner is the origin, from the arcs along the first coordinate and along the second: both pairs, less
+/// what is between the corners; and what is between that no edge has.
+fn quadrilateral(
+    [mut low, mut high]: [Arc; 2],
+    [left, right]: [Arc; 2],
+    bulge: Vector3,
+) -> [Arc; 4] {
+    for arc in [&mut low, &mut high] {
+        let chord = arc[1] + arc[2] + arc[3];
+        (arc[0], arc[1]) = (Vector3::zeros(), arc[1] - chord);
     }
+    let mut places = from_edges(low, left);
+    for k in 0..4 {
+        places[k][1] += high[k] - low[k];
+        places[1][k] += right[k] - left[k];
+    }
+    for (i, j, sign) in [(1, 1, 1.0), (1, 2, -1.0), (2, 1, -1.0), (2, 2, 1.0)] {
+        places[i][j] += sign * bulge;
+    }
+    places
 }
 
 /// What a quadrilateral that is no parallelogram has between its edges beyond Coons' patch, which lacks `s² t²`: with
@@ -178,18 +187,4 @@ fn bulge(corners: [Vector3; 4], normals: [Vector3; 4]) -> Vector3 {
     let turn = (r * f - q * g) / area * turns[0] + (p * g - q * f) / area * turns[1];
     let normal = 0.25 * normals.iter().sum::<Vector3>();
     -0.5 * turn.dot(&twist) * normal
-}
-
-/// The point of a cubic triangle and its derivatives, from those by the three barycentric coordinates.
-fn in_triangle(arcs: &[Arc; 3], middle: &Vector3, [s, t]: Local) -> (Vector3, [Vector3; 2]) {
-    let at = [1.0 - s - t, s, t];
-    let slopes = [0, 1, 2].map(|i| {
-        let (next, before) = ((i + 1) % 3, (i + 2) % 3);
-        let (u, v, w) = (at[i], at[next], at[before]);
-        let ([p, a, b, _], [_, d, c, _]) = (arcs[i], arcs[before]);
-        let along = u * u * p + 2.0 * u * (v * a + w * c) + v * v * b + w * w * d;
-        3.0 * (along + 2.0 * v * w * middle)
-    });
-    let point = (0..3).map(|i| at[i] * slopes[i]).sum::<Vector3>() / 3.0;
-    (point, [slopes[1] - slopes[0], slopes[2] - slopes[0]])
 }

@@ -17,10 +17,10 @@ use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
 use super::watch::Watch;
 use crate::error::{Argument, Error, index};
+use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, axis, unit};
 
-/// A step beside the size of a face, or in its local coordinates, this short is the last one: what remains is of the order
-/// of its square.
+/// A step beside the size of a face this short is the last one: what remains is of the order of its square.
 const LAST: f64 = 1e-9;
 
 /// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
@@ -101,11 +101,13 @@ impl<'a> TrueSides<'a> {
         let of_part = |part: &Opposite<'_>| {
             let opposite = self.master.face(part.at);
             let opposite = self.sides[1].over(part.at, &opposite);
+            // How far the last foot is from where facets meet: that of the next point is about as far.
+            let mut moved = [0.0; 2];
             let gap = |point: &Meeting| {
                 let from = own.point(point.slave);
                 match opposite.exact {
                     Some(shape) => along_to_shape(from, shape, size),
-                    None => along_to_patch(from, |at| opposite.at(at), point.master),
+                    None => along_to_patch(from, |at| opposite.at(at), (point.master, &mut moved)),
                 }
             };
             points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
@@ -182,22 +184,22 @@ fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64
     along
 }
 
-/// The distance from a point along a normal to a face or its patch, or their continuation.
+/// The distance from a point along a normal to a face or its patch, or their continuation, whose foot is about so far from a point.
 fn along_to_patch(
     (x, normal): (Vector3, Vector3),
     opposite: impl Fn(Local) -> (Vector3, [Vector3; 2]),
-    mut at: Local,
+    (near, moved): (Local, &mut Local),
 ) -> f64 {
     let mut along = 0.0;
     for _ in 0..MOST_STEPS {
-        let (place, [a, b]) = opposite(at);
+        let (place, [a, b]) = opposite([near[0] + moved[0], near[1] + moved[1]]);
         let (from, across) = (place - x, a.cross(&b));
         along = across.dot(&from) / across.dot(&normal);
-        let rest = along * normal - from;
-        let (by_a, by_b) = (b.cross(&across), across.cross(&a));
-        let step = [by_a.dot(&rest) / by_a.dot(&a), by_b.dot(&rest) / by_b.dot(&b)];
-        at = [at[0] + step[0], at[1] + step[1]];
-        if step[0].abs().max(step[1].abs()) <= LAST {
+        let rest = (along * normal - from) / across.norm_squared();
+        let step = [b.cross(&across).dot(&rest), across.cross(&a).dot(&rest)];
+        *moved = [moved[0] + step[0], moved[1] + step[1]];
+        // It is wrong by the square of the step.
+        if step[0] * step[0] + step[1] * step[1] <= ROUNDING {
             break;
         }
     }
