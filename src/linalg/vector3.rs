@@ -18,7 +18,8 @@ pub type Matrix3 = nalgebra::Matrix3<f64>;
 /// The vector with two or three components.
 pub fn vector(components: &[f64]) -> Vector3 {
     let mut vector = Vector3::zeros();
-    vector.as_mut_slice()[..components.len()].copy_from_slice(components);
+    // One by one: a copy of a length that is not known is a call.
+    vector.iter_mut().zip(components).for_each(|(own, component)| *own = *component);
     vector
 }
 

@@ -143,7 +143,7 @@ impl Curved {
     }
 
     /// The place, and derivatives by the local coordinates.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
         let [x, y, z] = &self.x;
         let [x, y, z] = [evaluate(x, at), evaluate(y, at), evaluate(z, at)];

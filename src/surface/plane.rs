@@ -162,7 +162,7 @@ impl<'a> Flat<'a> {
     }
 
     /// The place in the axes of the plane, and derivatives by the local coordinates.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, at: Local) -> [Vector3; 3] {
         match &self.curved {
             Some(curved) => curved.at(at),
