@@ -23,12 +23,14 @@
 //! For free motions this is the projection `(1 - V Vᵀ) S (1 - V Vᵀ)`. Components that the free motions
 //! move on their own get rows of zeros.
 
+use nalgebra::{DMatrix, DMatrixView};
+
 use super::eigen::eigenvectors;
 use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
 use super::sparse_schur::Failure;
 use super::tolerances::{CONDENSATION, FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
-use super::vector::{combination, dot, norm};
+use super::vector::{combination, dot, largest_of, norm};
 use super::watched::GoesOn;
 
 /// The matrix from which another one was condensed: of eliminated components, then of those kept.
@@ -92,21 +94,25 @@ impl Doubt {
 
 /// Settles which motions the condensed `matrix`, column-major, does not resist, and makes it exact on them.
 /// `units` are positive, of the size of the diagonal before anything was eliminated; motions with pivots up to `least` beside
-/// them are looked at. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is
-/// settled.
+/// them are looked at. Motions that are `known` to be free, [`orthonormal`] with each component times the root of its unit, need no
+/// search. Returns whether any motion is free; `goes_on` is asked now and then, and where it says no, nothing is settled.
 pub fn settle(
     matrix: &mut [f64],
     (units, least, doubt): (&[f64], f64, Doubt),
-    whole: &dyn Whole,
+    (known, whole): (&[Vec<f64>], &dyn Whole),
     goes_on: GoesOn<'_>,
 ) -> Result<bool, Failure> {
     let (size, least) = (units.len(), least.max(SUSPICIOUS_PIVOT));
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
-    let entry = |i: usize, j: usize| matrix[i + size * j] / (root[i] * root[j]);
+    // A unit holds those that are known, so that others are found beside them.
+    let entry = |i: usize, j: usize| {
+        let held: f64 = known.iter().map(|v| v[i] * v[j]).sum();
+        matrix[i + size * j] / (root[i] * root[j]) + held
+    };
     let Some(factor) = PivotedCholesky::within(size, least, entry, goes_on) else {
         return Ok(false);
     };
-    if factor.dependent.is_empty() {
+    if factor.dependent.is_empty() && known.is_empty() {
         return Ok(false);
     }
     let scale = |matrix: &mut [f64], by: fn(f64, f64) -> f64| {
@@ -115,7 +121,7 @@ pub fn settle(
         }
     };
     scale(matrix, |entry, roots| entry / roots);
-    let settled = settle_scaled(matrix, (&factor, doubt), &root, whole, goes_on);
+    let settled = settle_scaled(matrix, (&factor, doubt), &root, (known, whole), goes_on);
     scale(matrix, |entry, roots| entry * roots);
     settled
 }
@@ -124,15 +130,17 @@ fn settle_scaled(
     matrix: &mut [f64],
     (factor, doubt): (&PivotedCholesky, Doubt),
     root: &[f64],
-    whole: &dyn Whole,
+    (known, whole): (&[Vec<f64>], &dyn Whole),
     goes_on: GoesOn<'_>,
 ) -> Result<bool, Failure> {
     let size = root.len();
-    let motions = candidates(matrix, factor, root, whole, goes_on)
-        .and_then(|candidates| parted(candidates, root, whole, goes_on));
-    let Some(motions) = motions else { return Ok(false) };
+    let Some(mut motions) = candidates(matrix, factor, root, whole, goes_on) else {
+        return Ok(false);
+    };
+    motions.iter_mut().for_each(|motion| drop(orthogonalised(motion, known)));
+    let Some(motions) = parted(motions, root, whole, goes_on) else { return Ok(false) };
     let (mut basis, mut products) = (Vec::new(), Vec::new());
-    let mut free = Vec::new();
+    let mut free = known.to_vec();
     for motion in motions {
         let (energy, noise) = (dot(&motion.whole, &motion.forces), whole.noise(&motion.whole));
         if energy.abs() <= FREE * noise {
@@ -151,7 +159,7 @@ fn settle_scaled(
     let Some(alone) = separate(&mut free, root, whole, goes_on) else { return Ok(false) };
     products.extend(free.iter().map(|_| vec![0.0; size]));
     basis.extend(free);
-    replace_products(matrix, &basis, products);
+    replace_products(matrix, &basis, &products);
     for &i in &alone {
         (0..size).for_each(|j| (matrix[i + size * j], matrix[j + size * i]) = (0.0, 0.0));
     }
@@ -217,17 +225,20 @@ fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {
     scaled.iter().zip(root).map(|(x, root)| x / root).collect()
 }
 
-/// `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
-/// remainder first.
-fn orthonormal(mut vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
+/// Up to `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
+/// remainder first. Remainders that may be rounding are left out.
+pub fn orthonormal(vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
+    let mut left: Vec<(f64, Vec<f64>)> =
+        vectors.into_iter().map(|vector| (norm(&vector), vector)).collect();
+    let least = SUSPICIOUS_PIVOT * largest_of(left.iter().map(|(size, _)| *size));
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
     while basis.len() < count
-        && let Some(k) =
-            (0..vectors.len()).max_by(|&a, &b| norm(&vectors[a]).total_cmp(&norm(&vectors[b])))
+        && let Some(k) = (0..left.len()).max_by(|&a, &b| left[a].0.total_cmp(&left[b].0))
+        && left[k].0 > least
     {
-        extend_basis(&mut basis, vectors.swap_remove(k));
+        extend_basis(&mut basis, left.swap_remove(k).1);
         let last = &basis[basis.len() - 1..];
-        vectors.iter_mut().for_each(|other| drop(orthogonalised(other, last)));
+        left.iter_mut().for_each(|(size, other)| (_, *size, _) = orthogonalised(other, last));
     }
     basis
 }
@@ -284,25 +295,19 @@ fn is_unresisted(
 }
 
 /// Gives the scaled matrix the `products` with the orthonormal `basis`, and leaves it symmetric.
-fn replace_products(matrix: &mut [f64], basis: &[Vec<f64>], mut products: Vec<Vec<f64>>) {
-    for (product, v) in products.iter_mut().zip(basis) {
-        for (column, share) in matrix.chunks_exact(v.len()).zip(v) {
-            product.iter_mut().zip(column).for_each(|(product, k)| *product -= share * k);
-        }
-    }
+fn replace_products(matrix: &mut [f64], basis: &[Vec<f64>], products: &[Vec<f64>]) {
+    let Some(size) = basis.first().map(Vec::len) else { return };
+    let columns = |vectors: &[Vec<f64>]| {
+        DMatrix::from_iterator(size, vectors.len(), vectors.iter().flatten().copied())
+    };
+    let basis = columns(basis);
+    let lack = columns(products) - DMatrixView::from_slice(matrix, size, size) * &basis;
     // R - V (VᵀR) / 2, so that one symmetric update does.
-    let halves: Vec<Vec<f64>> = (0..basis.len())
-        .map(|j| {
-            let mut half = products[j].clone();
-            for (i, v) in basis.iter().enumerate() {
-                let share = (dot(v, &products[j]) + dot(&basis[j], &products[i])) / 4.0;
-                half.iter_mut().zip(v).for_each(|(half, v)| *half -= share * v);
-            }
-            half
-        })
-        .collect();
-    for (v, half) in basis.iter().zip(&halves) {
-        for (j, column) in matrix.chunks_exact_mut(v.len()).enumerate() {
+    let inner = basis.tr_mul(&lack);
+    let halves = lack - &basis * ((&inner + inner.transpose()) / 4.0);
+    let (basis, halves) = (basis.as_slice(), halves.as_slice());
+    for (v, half) in basis.chunks_exact(size).zip(halves.chunks_exact(size)) {
+        for (j, column) in matrix.chunks_exact_mut(size).enumerate() {
             let rows = column.iter_mut().zip(half.iter().zip(v));
             rows.for_each(|(entry, (half_i, v_i))| *entry += half_i * v[j] + v_i * half[j]);
         }

@@ -14,10 +14,11 @@ use super::by_equilibrium::ByEquilibrium;
 use super::dependence::{Dependence, unit_of_pair, units, units_of_variables};
 use super::free_block::FreeBlock;
 use super::relation::{Redundant, Relation};
+use crate::linalg::free_motions::orthonormal;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{Csc, entries};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{largest_of, norm, norm_inf};
+use crate::linalg::vector::{largest_of, norm, norm_inf, normalise};
 use crate::linalg::watched::GoesOn;
 
 /// Why rows of surfaces nearly depend on each other, and what to do.
@@ -73,14 +74,22 @@ impl<'a> DependentRows<'a> {
         }
     }
 
-    /// A basis of the displacements that `K` does not resist; `None` if rounding leaves `K` energies below zero, or where
-    /// `goes_on` says no.
+    /// A basis of the displacements that `K` does not resist, orthonormal with each component times the root of its unit; `None` if
+    /// rounding leaves `K` energies below zero, or where `goes_on` says no.
     pub(crate) fn free_motions(&self, goes_on: GoesOn<'_>) -> Option<Vec<Vec<f64>>> {
         let units = units_of_variables((&self.stiffness, self.of_rigid));
         let scale = units.iter().map(|unit| unit.sqrt().recip()).collect();
         let all = (0..self.stiffness.size()).collect();
         let block = FreeBlock::new(self.stiffness, all, scale, goes_on)?;
-        Some(block.null_vectors().map(|motion| self.dependence.relative(&motion)).collect())
+        let scaled = |motion: Vec<f64>| {
+            let mut scaled = self.dependence.relative(&motion);
+            scaled.iter_mut().zip(&self.units).for_each(|(d, unit)| *d *= unit.sqrt());
+            normalise(&mut scaled);
+            scaled
+        };
+        let motions: Vec<Vec<f64>> = block.null_vectors().map(scaled).collect();
+        let count = motions.len();
+        Some(orthonormal(motions, count))
     }
 
     /// `C z + o`.

@@ -77,7 +77,8 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Opt
         && is_symmetric_beside(matrix, &root);
     let given = HostMatrix { matrix: *matrix, units: &units };
     // A matrix that is not sound is refused by the check.
-    (is_sound && settle(&mut stiffness, (&units, 0.0, Doubt::Pivots), &given, goes_on) == Ok(true))
+    let doubt = (&units[..], 0.0, Doubt::Pivots);
+    (is_sound && settle(&mut stiffness, doubt, (&[], &given), goes_on) == Ok(true))
         .then_some(stiffness)
 }
 

@@ -33,11 +33,12 @@ pub struct SparseSchur {
 
 impl SparseSchur {
     /// Factorises the symmetric matrix whose lower triangle is `lower`, every diagonal entry stored, and of which `plan` was
-    /// made. Free motions are looked for if `C` has few rows, if rounding may hide them, or `always`.
+    /// made. Free motions are looked for if `C` has few rows, if rounding may hide them, or, beside those that are `known`
+    /// ([`settle`]), always.
     pub fn new(
         plan: Plan,
         mut lower: Csc,
-        always: bool,
+        known: Option<&[Vec<f64>]>,
         progress: &mut FactorProgress<'_>,
     ) -> Result<Self, Failure> {
         let (values, Numeric { schur, weakest, .. }) =
@@ -52,14 +53,17 @@ impl SparseSchur {
         let least = suspicious_pivot(weakest.map_or(1.0, |(_, pivot)| pivot));
         let last = LastCase::default();
         let mut found = SparseSchur { structure, values, schur, units, last };
-        let doubt = match always || m <= FEW {
+        let doubt = match known.is_some() || m <= FEW {
             true => Some(Doubt::Pivots),
             false => Doubt::of(least, &found.units, |i| found.schur[i + m * i]),
         };
         if let Some(doubt) = doubt {
             let mut schur = std::mem::take(&mut found.schur);
             let (units, whole) = (&found.units[..], Unreduced { lower, factor: &found });
-            settle(&mut schur, (units, least, doubt), &whole, &mut || progress(1.0).is_ok())?;
+            let known = known.unwrap_or(&[]);
+            settle(&mut schur, (units, least, doubt), (known, &whole), &mut || {
+                progress(1.0).is_ok()
+            })?;
             found.schur = schur;
             progress(1.0)?;
         }

@@ -276,8 +276,8 @@ impl Engine {
                 Plan::new(&matrix, parts.inner, parts.rank, &mut |done| asked.goes_on(done))?;
             if asked.needs(plan.bytes.max((parts.case)(None, components))).is_ok() {
                 // Rows of many nodes leave more rounding on motions that are free than the entries of K_rel show.
-                let always = !parts.own;
-                return SparseSchur::new(plan, matrix, always, &mut |done| asked.goes_on(done))
+                let known: Option<&[Vec<f64>]> = (!parts.own).then_some(&[]);
+                return SparseSchur::new(plan, matrix, known, &mut |done| asked.goes_on(done))
                     .map(|schur| Engine::Condensed(Box::new(schur)));
             }
             let lacks_memory =

@@ -29,7 +29,10 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let Means { settings, monitor, .. } = means;
     let relation = problem.relation();
-    let first = match condensed(relation, COMPLIANCE, monitor)? {
+    // Those of the stiffness with springs, which is ten thousand times as large, would carry its rounding.
+    let scaled = relation.free_motions(&mut monitor.asking());
+    let known = scaled.as_deref().unwrap_or(&[]);
+    let first = match condensed((relation, known), COMPLIANCE, monitor)? {
         Ok(condensed) => condensed,
         Err(stop) => {
             let d = relation.relative(&begun(relation, start));
@@ -38,8 +41,10 @@ pub fn solve(
             return Ok(ended(&Contact::new(problem), (d, &force), settings, how));
         }
     };
-    // Those of the stiffness with springs, which is ten thousand times as large, would carry its rounding.
-    let free_motions = relation.free_motions(&mut monitor.asking());
+    let motion =
+        |v: &Vec<f64>| v.iter().zip(&relation.units).map(|(d, unit)| d / unit.sqrt()).collect();
+    let free_motions: Option<Vec<Vec<f64>>> =
+        scaled.as_ref().map(|scaled| scaled.iter().map(motion).collect());
     let (all, with_start) = (&|pair| pair, (settings, start));
     let (found, _) = solve_by_rounds(problem, all, with_start, |problem, settings, start| {
         let variables = begun(relation, start);
@@ -48,6 +53,7 @@ pub fn solve(
             first: &first,
             compliance: COMPLIANCE,
             changed: None,
+            known,
             free_motions: free_motions.as_deref(),
             before: variables.clone(),
             variables,
@@ -67,6 +73,8 @@ struct Bodies<'p> {
     compliance: f64,
     /// With other springs than the first ones.
     changed: Option<SparseSchur>,
+    /// Those motions with each component times the root of its unit.
+    known: &'p [Vec<f64>],
     free_motions: Option<&'p [Vec<f64>]>,
     variables: Vec<f64>,
     /// Those before the last round.
@@ -123,7 +131,8 @@ impl InSeries for Bodies<'_> {
         }
         (self.compliance, self.changed) = (COMPLIANCE, None);
         if compliance < COMPLIANCE
-            && let Ok(Ok(condensed)) = condensed(self.relation, compliance, self.monitor)
+            && let Ok(Ok(condensed)) =
+                condensed((self.relation, self.known), compliance, self.monitor)
         {
             (self.compliance, self.changed) = (compliance, Some(condensed));
         }
@@ -141,7 +150,7 @@ impl InSeries for Bodies<'_> {
 /// The stiffness of the variables and the springs, condensed on the displacements beyond the springs, or why that
 /// was stopped.
 fn condensed(
-    relation: &DependentRows<'_>,
+    (relation, known): (&DependentRows<'_>, &[Vec<f64>]),
     compliance: f64,
     monitor: &dyn Watch,
 ) -> Result<Result<SparseSchur, Stop>, Error> {
@@ -173,7 +182,7 @@ fn condensed(
         })
     };
     let made = Plan::new(&all, kept, None, watched)
-        .and_then(|plan| SparseSchur::new(plan, all, true, watched));
+        .and_then(|plan| SparseSchur::new(plan, all, Some(known), watched));
     match (made, stopped) {
         (Ok(made), _) => Ok(Ok(made)),
         (Err(_), Some(stop)) => Ok(Err(stop)),
