@@ -77,88 +77,112 @@ fn on_lines(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     Ok((0..side.count()).map(normals).collect())
 }
 
-/// The smooth surface that each face is a part of, by number, and the corners at its rims with it.
-type Surfaces = (Vec<usize>, HashSet<(usize, usize)>);
+/// The fans of nodes: the faces around a node, apart where sharp edges part them.
+struct Fans {
+    /// Number of nodes of the faces before each one.
+    before: Vec<usize>,
+    /// The fan of each node of each face, those of a face one behind the other.
+    of_node: Vec<usize>,
+    /// The faces of each fan.
+    faces: Vec<Vec<usize>>,
+    /// True for a fan with an edge at which no face goes on smoothly.
+    at_rim: Vec<bool>,
+}
 
-fn surfaces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Surfaces, Error> {
-    let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
-    let (mut smooth, mut inner) = (Vec::new(), HashSet::new());
-    for at in 0..side.count() {
-        watch.goes_on()?;
-        let face = side.face(at);
-        for mut ends in face.kind.edges() {
-            ends.sort_unstable_by_key(|&i| face.nodes[i]);
-            let normals = ends.map(|i| face.normal(face.kind.places()[i]));
-            let edge = edges.insert(ends.map(|i| face.nodes[i]), (at, normals));
-            let Some((other, others)) = edge else { continue };
-            if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
-                smooth.push((at, other));
-                inner.insert(ends.map(|i| face.nodes[i]));
+impl Fans {
+    fn new(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Self, Error> {
+        let mut before = vec![0];
+        let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
+        let (mut smooth, mut inner) = (Vec::new(), HashSet::new());
+        for at in 0..side.count() {
+            watch.goes_on()?;
+            let face = side.face(at);
+            before.push(before[at] + face.nodes.len());
+            for mut ends in face.kind.edges() {
+                ends.sort_unstable_by_key(|&i| face.nodes[i]);
+                let normals = ends.map(|i| face.normal(face.kind.places()[i]));
+                let edge = edges.insert(ends.map(|i| face.nodes[i]), (at, normals));
+                let Some((other, others)) = edge else { continue };
+                if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
+                    smooth.push([at, other]);
+                    inner.insert(ends.map(|i| face.nodes[i]));
+                }
             }
         }
-    }
-    let mut surface = vec![0; side.count()];
-    for (number, faces) in Islands::new(side.count(), smooth.into_iter()).each().enumerate() {
-        faces.iter().for_each(|&face| surface[face] = number);
-    }
-    let mut rims = HashSet::new();
-    for (at, &surface) in surface.iter().enumerate() {
-        let face = side.face(at);
-        for ends in face.kind.edges() {
-            let mut ends = ends.map(|i| face.nodes[i]);
-            ends.sort_unstable();
-            if !inner.contains(&ends) {
-                rims.extend(ends.map(|node| (surface, node)));
+        let places = |at: usize| side.nodes(at).iter().zip(before[at]..);
+        let common = |[at, other]: [usize; 2]| {
+            let of_other = move |node| places(other).find(|(other, _)| *other == node);
+            places(at).filter_map(move |(node, place)| Some((place, of_other(node)?.1)))
+        };
+        let joined = smooth.iter().flat_map(|&faces| common(faces));
+        let fans = Islands::new(before[side.count()], joined);
+        let mut of_node = vec![0; before[side.count()]];
+        for (fan, places) in fans.each().enumerate() {
+            places.iter().for_each(|&place| of_node[place] = fan);
+        }
+        let (mut faces, mut at_rim) = (vec![Vec::new(); fans.len()], vec![false; fans.len()]);
+        for at in 0..side.count() {
+            let (nodes, own) = (side.nodes(at), &of_node[before[at]..before[at + 1]]);
+            own.iter().for_each(|&fan| faces[fan].push(at));
+            for ends in side.kind(nodes).edges() {
+                let mut key = ends.map(|i| nodes[i]);
+                key.sort_unstable();
+                if !inner.contains(&key) {
+                    ends.iter().for_each(|&i| at_rim[own[i]] = true);
+                }
             }
         }
+        Ok(Fans { before, of_node, faces, at_rim })
     }
-    Ok((surface, rims))
+
+    /// The fans of the nodes of a face.
+    fn of_face(&self, at: usize) -> &[usize] {
+        &self.of_node[self.before[at]..self.before[at + 1]]
+    }
+
+    /// The fans at the nodes of the faces of some fans. A hub of many faces would tell of those far away, to each node around it.
+    fn around(&self, fans: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let faces = fans.iter().map(|&fan| &self.faces[fan]);
+        let near = faces.filter(|faces| fans.len() == 1 || faces.len() <= MANY_FACES).flatten();
+        near.flat_map(|&at| self.of_face(at)).copied().collect()
+    }
 }
 
 fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
-    let (surface, rims) = surfaces(side, watch)?;
-    // The faces at each node of a smooth surface.
-    let mut around: HashMap<(usize, usize), Vec<usize>> = HashMap::new();
-    for (at, &surface) in surface.iter().enumerate() {
-        for &node in side.face(at).nodes {
-            around.entry((surface, node)).or_default().push(at);
-        }
-    }
-    // A hub of many faces would tell of those far away, to each node around it.
-    let ring = |surface: usize, nodes: &BTreeSet<usize>| {
-        let faces = nodes.iter().map(|&node| &around[&(surface, node)]);
-        let faces = faces.filter(|faces| nodes.len() == 1 || faces.len() <= MANY_FACES).flatten();
-        faces.flat_map(|&at| side.face(at).nodes.to_vec()).collect::<BTreeSet<usize>>()
+    let fans = Fans::new(side, watch)?;
+    let node = |fan: usize| {
+        let at = fans.faces[fan][0];
+        let place = fans.of_face(at).iter().position(|&other| other == fan);
+        side.nodes(at)[place.unwrap_or_default()]
     };
-    let mut normals = HashMap::with_capacity(around.len());
-    for (&(surface, node), faces) in &around {
+    let middles: Vec<Vector3> = (0..side.count()).map(|at| side.face(at).middle_normal()).collect();
+    let mut normals = Vec::with_capacity(fans.faces.len());
+    for (fan, faces) in fans.faces.iter().enumerate() {
         watch.goes_on()?;
-        let mut near = ring(surface, &BTreeSet::from([node]));
+        let ring = fans.around(&BTreeSet::from([fan]));
         let is_linear = side.face(faces[0]).kind.mids().next().is_none();
-        // Fewer nodes than the largest face has determine a quadric badly.
-        if is_linear || near.len() < MOST_NODES {
-            near = ring(surface, &near);
-        }
-        let is_at_rim = |node: &usize| rims.contains(&(surface, *node));
+        // Three rows of nodes, of which the largest faces at an edge have five each, do not determine cubes.
+        let is_enough = !is_linear && ring.len() >= 2 * MOST_NODES;
+        let near = if is_enough { ring.clone() } else { fans.around(&ring) };
         let form = match is_linear {
-            true if near.iter().all(is_at_rim) => Form::Layer,
+            true if near.iter().all(|&fan| fans.at_rim[fan]) => Form::Layer,
             true => Form::Linear,
             false => Form::Curved,
         };
-        near.remove(&node);
-        let from = near.iter().map(|&other| side.position(other) - side.position(node));
+        let own = node(fan);
+        let nodes: BTreeSet<usize> = near.into_iter().map(node).collect();
+        let from = nodes.iter().map(|&other| side.position(other) - side.position(own));
         // Two nodes may stand at one place.
         let from: Vec<Vector3> = from.filter(|x| x.norm() > 0.0).collect();
-        // Places may tell of another side.
-        let mean = mean(side, faces, node);
+        // Normals of faces around enclose it, but where a quadric bends in ways of its own: next to what is flat, and of rounding.
+        let mean = mean(side, faces, own);
         let fitted = fit(mean, &from, form);
-        let normal = if fitted.dot(&mean) > SMOOTH { fitted } else { mean };
-        normals.insert((surface, node), normal);
+        let apart = |&at: &usize| (middles[at] - mean).norm();
+        let spread = ring.iter().flat_map(|&fan| &fans.faces[fan]).map(apart).fold(0.0, f64::max);
+        normals.push(if (fitted - mean).norm() <= spread { fitted } else { mean });
     }
-    let of_face = |(at, &surface): (usize, &usize)| {
-        padded(side.nodes(at).iter().map(|&node| normals[&(surface, node)]))
-    };
-    Ok(surface.iter().enumerate().map(of_face).collect())
+    let of_face = |at| padded(fans.of_face(at).iter().map(|&fan| normals[fan]));
+    Ok((0..side.count()).map(of_face).collect())
 }
 
 /// The mean normal at a node of some faces; that of the first if they cancel.

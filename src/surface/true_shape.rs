@@ -26,6 +26,10 @@ const LAST: f64 = 1e-9;
 /// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
 const LEAST_FALL: f64 = 0.2;
 
+/// A foot on a patch is no further from where facets meet, in local coordinates: a face whose normals at nodes are within 35 degrees
+/// stands off its patch by a tenth of its length, which normals inclined by 78 degrees carry by half of it.
+const FURTHEST: f64 = 1.0;
+
 /// The degree of a patch: cubics, between those of a quadrilateral times what is linear. With this on both sides integrals of gaps
 /// are exact to some ten digits of what the shapes stand off the faces: beside these, interferences are small.
 const OF_PATCH: usize = 4;
@@ -105,10 +109,12 @@ impl<'a> TrueSides<'a> {
             let mut moved = [0.0; 2];
             let gap = |point: &Meeting| {
                 let from = own.point(point.slave);
-                match opposite.exact {
+                let found = match opposite.exact {
                     Some(shape) => along_to_shape(from, shape, size),
                     None => along_to_patch(from, |at| opposite.at(at), (point.master, &mut moved)),
-                }
+                };
+                // To the true point where facets meet.
+                found.unwrap_or_else(|| from.1.dot(&(opposite.point(point.master).0 - from.0)))
             };
             points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
         };
@@ -169,39 +175,45 @@ impl Over<'_> {
     }
 }
 
-/// The distance from a point along a normal to an exact shape.
-fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64) -> f64 {
+/// The distance from a point along a normal to an exact shape; `None` if it leads past it.
+fn along_to_shape((x, normal): (Vector3, Vector3), shape: &ExactShape, size: f64) -> Option<f64> {
     let mut along = 0.0;
     for _ in 0..MOST_STEPS {
-        let (distance, Some(gradient)) = shape.distance(x + along * normal) else { break };
+        let (distance, gradient) = shape.distance(x + along * normal);
+        // At the apex of a cone.
+        let Some(gradient) = gradient else { return Some(along) };
         let fall = gradient.dot(&normal);
         let step = distance / fall.abs().max(LEAST_FALL).copysign(fall);
         along -= step;
         if step.abs() <= LAST * size {
-            break;
+            return Some(along);
         }
     }
-    along
+    None
 }
 
 /// The distance from a point along a normal to a face or its patch, or their continuation, whose foot is about so far from a point.
+/// `None` if no foot is found next to that point: patches of faces with short edges bend, and continue far away.
 fn along_to_patch(
     (x, normal): (Vector3, Vector3),
     opposite: impl Fn(Local) -> (Vector3, [Vector3; 2]),
     (near, moved): (Local, &mut Local),
-) -> f64 {
-    let mut along = 0.0;
+) -> Option<f64> {
     for _ in 0..MOST_STEPS {
         let (place, [a, b]) = opposite([near[0] + moved[0], near[1] + moved[1]]);
         let (from, across) = (place - x, a.cross(&b));
-        along = across.dot(&from) / across.dot(&normal);
+        let along = across.dot(&from) / across.dot(&normal);
         let rest = (along * normal - from) / across.norm_squared();
         let step = [b.cross(&across).dot(&rest), across.cross(&a).dot(&rest)];
         *moved = [moved[0] + step[0], moved[1] + step[1]];
         // It is wrong by the square of the step.
         if step[0] * step[0] + step[1] * step[1] <= ROUNDING {
+            return Some(along);
+        }
+        if !moved.iter().all(|moved| moved.abs() <= FURTHEST) {
             break;
         }
     }
-    along
+    *moved = [0.0; 2];
+    None
 }

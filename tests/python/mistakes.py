@@ -43,6 +43,10 @@ def with_more(K, more):
     return dense[columns, rows], rows, np.searchsorted(columns, np.arange(size + 1))
 
 
+def over_a_plane(plane=signorini.Plane((0, 0), (0, 1))):
+    return signorini.pair_obstacle(np.array([[0, 0], [1, 0], [2, 0.0]]), [[0, 1]], plane)
+
+
 def loads(*shape):
     return np.ones(shape)
 
@@ -88,6 +92,18 @@ REFUSED = (
                                      [[3, 2]])),
     ("a node on both sides", signorini.SignoriniError, ["node 3", "on the slave side too"],
      lambda: signorini.pair_surfaces(SQUARE, [[2, 3]], [[3, 2]])),
+    ("a zone with a null in its name", ValueError, ["zone 'a\\x00b'", "null character"],
+     lambda: Model.from_surfaces(SPRINGS, {"a\0b": over_a_plane()})),
+    ("a zone with half a character", ValueError, ["zone '\\ud800'", "half of a character"],
+     lambda: Model.from_surfaces(SPRINGS, {"\ud800": over_a_plane()})),
+    ("no zones", ValueError, ["zones is empty", "at least one"],
+     lambda: Model.from_surfaces(SPRINGS, [])),
+    ("moves in part", TypeError, ["moves is 1.5", "whole number"],
+     lambda: over_a_plane().adjusted(moves=1.5)),
+    ("a point of four numbers", ValueError, ["Plane", "of 4 numbers", "give 2"],
+     lambda: over_a_plane(signorini.Plane((0, 0, 1, 1), (0, 1)))),
+    ("mu by zone without zones", TypeError, ["mu is a dict", "real numbers"],
+     lambda: model().solve(PRESS, 0, mu={"all": 0.3})),
 )
 
 # Mistake, the remark, what a user has written: right in itself.

@@ -275,7 +275,7 @@ class Pairs(unittest.TestCase):
         ):
             with self.assertRaisesRegex(kind, part):
                 signorini.pair_surfaces(*arguments, **keywords)
-        with self.assertRaisesRegex(TypeError, "contact is a list"):
+        with self.assertRaisesRegex(ValueError, "zones is empty"):
             signorini.Model.from_surfaces((np.ones(2), np.arange(2), np.arange(3)), [])
         contact = signorini.pair_surfaces(NODES, SLAVE, MASTER)
         with self.assertRaisesRegex(TypeError, "result is a ndarray: give what Model.solve returned"):

@@ -280,6 +280,135 @@ fn fitted_faces_follow_curved_shapes() {
     }
 }
 
+/// Faces with mid nodes follow shapes up to free edges: halving their sides divides gaps by more than the cube, as those of the faces
+/// themselves.
+#[test]
+fn fitted_faces_with_mid_nodes_follow_shapes_to_their_edges() {
+    let rng = &mut Rng::with_seed(21);
+    for (k, curved) in CURVED.into_iter().enumerate() {
+        for kind in [Shape::T6, Shape::Q8, Shape::Q9] {
+            let [coarse, fine] = [6, 12].map(|cells| {
+                let inner = Sheet::rectangle(kind, [cells; 2], [[-0.5, 0.5]; 2], (0.0, rng));
+                let outer = Sheet::rectangle(Shape::Q4, [20; 2], [[-0.6, 0.6]; 2], (0.0, rng));
+                let outer = outer.turned().mapped(curved(APART).1);
+                let sheets = TwoSheets::new(3, inner.mapped(curved(0.0).1), outer);
+                let shapes = [TrueShape::Fitted, TrueShape::Exact(curved(APART).0)];
+                let found = sheets.pair(&SurfaceSettings { shapes, ..Default::default() }).unwrap();
+                assert_eq!(found.unpaired.len(), found.report.folded.len());
+                found.pairs.iter().map(|pair| (pair.gap - APART).abs()).fold(0.0, f64::max)
+            });
+            assert!(fine < coarse / 8.0, "{kind:?} on {k}: {coarse:e}, {fine:e}");
+        }
+    }
+}
+
+/// Nearly flat faces, one of them with a short edge, whose patches end far away where they are continued: feet are looked for next to
+/// where facets meet, so that gaps are those of facets to a tenth of the length of a face.
+#[test]
+fn patches_are_not_continued_far_away() {
+    let with_short_edge = [
+        vec![[0.0, 0.08072, 0.02938], [0.0, 0.526587, 0.027954], [0.414857, 0.433582, 0.03439]],
+        vec![
+            [-0.1, 0.229291, 0.028178],
+            [-0.1, 0.339558, 0.028704],
+            [-0.095571, 0.344778, 0.028842],
+            [0.262488, 0.333975, 0.036928],
+            [-0.1, 0.284424, 0.028628],
+            [-0.097785, 0.342168, 0.028774],
+            [0.083459, 0.339376, 0.033981],
+            [0.081244, 0.281633, 0.034322],
+        ],
+    ];
+    let with_few = [
+        vec![
+            [0.842166, 0.585229, 0.057159],
+            [0.794539, 0.35566, -0.01927],
+            [0.965218, 0.458329, 0.004988],
+            [1.0, 0.691365, 0.082621],
+            [0.847473, 0.671273, 0.088032],
+            [1.0, 0.697779, 0.083943],
+            [1.0, 0.699693, 0.084318],
+        ],
+        vec![
+            [1.004213, 0.59378, 0.052142],
+            [0.570175, 0.678359, 0.028137],
+            [1.006047, 0.835528, 0.083168],
+            [0.717343, 0.418849, -0.007379],
+        ],
+    ];
+    let faces = [
+        [vec![vec![1, 0, 2]], vec![vec![0, 1, 2, 3, 4, 5, 6, 7]]],
+        [
+            vec![vec![0, 1, 2], vec![3, 4, 0, 2], vec![5, 4, 3], vec![5, 6, 4]],
+            vec![vec![0, 1, 2], vec![3, 1, 0]],
+        ],
+    ];
+    for (nodes, faces) in [with_short_edge, with_few].into_iter().zip(faces) {
+        let [slave, master] = std::array::from_fn(|k| Sheet {
+            nodes: nodes[k].clone(),
+            faces: faces[k].clone(),
+            ..Sheet::default()
+        });
+        let sheets = TwoSheets::new(3, slave, master);
+        let gaps = [TrueShape::Facets, TrueShape::Fitted].map(|shape| {
+            let settings = SurfaceSettings { shapes: [shape; 2], ..Default::default() };
+            sheets.pair(&settings).unwrap().pairs.iter().map(|pair| pair.gap).collect::<Vec<f64>>()
+        });
+        assert!(!gaps[0].is_empty() && gaps[0].len() == gaps[1].len());
+        for (facets, fitted) in gaps[0].iter().zip(&gaps[1]) {
+            assert!((facets - fitted).abs() < 0.1 * 0.35, "{facets}, {fitted}");
+        }
+    }
+}
+
+/// A prism of a half circle and two flat sides that meet in a sharp edge, although they are one smooth surface around the
+/// circle: the sides stay flat up to the edge, and to where all nodes of two
+/// rows of faces around stand on them. To a hundred roundings.
+#[test]
+fn a_sharp_edge_parts_a_surface_that_is_smooth_around_it() {
+    const SIDE: usize = 8;
+    let round = 24;
+    // Tangents of the circle at 30 degrees to its axis x meet at x = 2.
+    let (tip, from) = ([2.0, 0.0], TAU / 6.0);
+    let at = |angle: f64| [angle.cos(), angle.sin()];
+    let between = |[a, b]: [[f64; 2]; 2], t: f64| [0, 1].map(|c| a[c] + t * (b[c] - a[c]));
+    let place = |[u, v, _]: Point| {
+        let along = u / SIDE as f64;
+        let on_circle = (u - SIDE as f64) / round as f64;
+        let [x, y] = match on_circle {
+            t if t < 0.0 => between([tip, at(from)], along),
+            t if t <= 1.0 => at(from + t * (TAU - 2.0 * from)),
+            _ => between([at(-from), tip], along - 1.0 - round as f64 / SIDE as f64),
+        };
+        [x, y, v]
+    };
+    let rng = &mut Rng::with_seed(22);
+    for kind in [Shape::T3, Shape::Q4, Shape::T6, Shape::Q8, Shape::Q9] {
+        let all = 2 * SIDE + round;
+        let sides = [[0.0, all as f64], [0.0, 1.0]];
+        let prism = closed(Sheet::rectangle(kind, [all, 3], sides, (0.0, rng)).mapped(place));
+        let plate = Sheet::rectangle(Shape::Q4, [6, 3], [[0.1, 5.9], [0.1, 0.9]], (0.0, rng));
+        let sheets = TwoSheets::new(3, plate.turned().mapped(place), prism);
+        let shapes = [TrueShape::Facets, TrueShape::Fitted];
+        let found = sheets.pair(&SurfaceSettings { shapes, ..Default::default() }).unwrap();
+        assert_eq!(found.pairs.len(), 7 * 4);
+        for pair in &found.pairs {
+            assert!(pair.gap.abs() < 1e-13, "{kind:?}: {:e} at {:?}", pair.gap, pair.point);
+        }
+    }
+}
+
+/// A sheet whose nodes at one place are one.
+fn closed(mut sheet: Sheet) -> Sheet {
+    let is_same = |a: &Point, b: &Point| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-9);
+    let nodes = sheet.nodes.clone();
+    let first = |node: usize| nodes.iter().position(|other| is_same(other, &nodes[node]));
+    for node in sheet.faces.iter_mut().flatten() {
+        *node = first(*node).expect("the node itself");
+    }
+    sheet
+}
+
 /// Flat faces of every kind are their own curved ones, and a sharp edge stays: gaps are those of the faces to a hundred
 /// roundings.
 #[test]
@@ -420,7 +549,7 @@ fn fitted_quarters_are_those_of_the_whole() {
         let (told, not_told) = (differs(&quarter), differs(&unnamed));
         let context = format!("{shape:?}, {high}: {told:e}, {not_told:e}");
         if high < 1.0 {
-            assert!(told < 0.05 * not_told && not_told > 1e-6, "{context}");
+            assert!(told < 0.05 * not_told && not_told > 1e-7, "{context}");
         } else {
             // Triangles to a twentieth of what is asked of their fits, 2e-6.
             let most = if shape.is_quadrilateral() { 1e-12 } else { 1e-7 };

@@ -100,6 +100,8 @@ def reals(name, values):
         raise TypeError(f"{name} is a scipy sparse matrix: give an array, {name}.toarray()")
     if values is None:
         raise TypeError(f"{name} is None: give real numbers")
+    if isinstance(values, dict):
+        raise TypeError(f"{name} is a dict, which the zones of a model have: give real numbers")
     array = _array(name, values)
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} holds {array.dtype}, not real numbers")

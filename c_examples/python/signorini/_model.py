@@ -254,7 +254,7 @@ class Model(Remade):
         without a law of its own takes; law="frictionless" is one. gap, mu, g, friction and slip0 of a case may then be a dict
         too, with the numbers of each zone; Result.zone gives the part of a zone and Result.table all of them.
         """
-        contact = by_name(contact) if isinstance(contact, (list, tuple)) and contact else contact
+        contact = by_name(contact) if isinstance(contact, (list, tuple)) else contact
         zones = Zones(contact) if isinstance(contact, dict) else None
         if zones is None and not isinstance(contact, SurfacePairs):
             raise TypeError(f"contact is a {type(contact).__name__}: give what pair_surfaces or "

@@ -343,6 +343,8 @@ class SurfacePairs(Remade):
         single pairs of quadratic faces. With a limit within one alone: distances are those before.
         Assemble K with these coordinates, and pair them again.
         """
+        if not isinstance(moves, (int, np.integer)):
+            raise TypeError(f"moves is {moves!r}: give a whole number")
         if moves < 1 or moves > 1 and within < np.inf:
             raise ValueError(f"moves is {moves}: give at least 1, and 1 with a limit within, which is of the distances before")
         contact, coordinates = self, self._coordinates.copy()
@@ -513,7 +515,7 @@ def _shape(obstacle, dim):
     """A shape in so many dimensions as signorini_obstacle."""
     def three(vector):
         vector = [float(x) for x in vector]
-        if len(vector) < dim:
+        if not dim <= len(vector) <= 3:
             raise ValueError(f"{obstacle!r} has a place or a direction of {len(vector)} numbers: give {dim}, as the nodes "
                              "have coordinates")
         return (real * 3)(*(vector + [0.0])[:3])

@@ -36,6 +36,16 @@ def name_bytes(name):
     return _terminated("a name", name.encode())
 
 
+def zone_bytes(name):
+    """Name of a zone."""
+    if not isinstance(name, str):
+        raise TypeError(f"zones names a zone {name!r}: give a text as its name")
+    try:
+        return _terminated(f"the name of zone {name!r}", name.encode())
+    except UnicodeEncodeError:
+        raise ValueError(f"the name of zone {name!r} holds half of a character: give a text that UTF-8 can write") from None
+
+
 def _terminated(name, text):
     if b"\0" in text:
         raise ValueError(f"{name} holds a null character, which ends a text in C: leave it out")

@@ -12,7 +12,7 @@ from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._structures import ContactZone, SurfaceData, address, i64, real, sized
 from ._surfaces import SurfacePairs, frames_of
-from ._text import tell
+from ._text import tell, zone_bytes
 
 
 class Zone:
@@ -64,8 +64,7 @@ class Zones(Remade):
         # Without a zone that has a law, the law of a case is that of all pairs.
         self.has_laws = any(isinstance(zone, Zone) for zone in contacts.values())
         for name, zone in contacts.items():
-            if not isinstance(name, str):
-                raise TypeError(f"zones names a zone {name!r}: give a text as its name")
+            zone_bytes(name)
             if not isinstance(zone, Zone):
                 _check(f"zones[{name!r}]", zone)
         zones = {name: zone if isinstance(zone, Zone) else Zone(zone) for name, zone in contacts.items()}
@@ -107,7 +106,7 @@ class Zones(Remade):
         functions, handle, data = library(), address(), sized(SurfaceData)
         numbers = [zone.numbers(name) for name, zone in zones.items()]
         given = (ContactZone * len(zones))(*[
-            sized(ContactZone, law=zone.friction.law, contact=zone.contact._handle, name=name.encode(), friction=at(own))
+            sized(ContactZone, law=zone.friction.law, contact=zone.contact._handle, name=zone_bytes(name), friction=at(own))
             for (name, zone), own in zip(zones.items(), numbers)])
         try:
             check(functions, functions.surface_join(len(zones), given, ctypes.byref(handle)))
