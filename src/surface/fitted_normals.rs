@@ -85,15 +85,13 @@ struct Fans {
     of_node: Vec<usize>,
     /// The faces of each fan.
     faces: Vec<Vec<usize>>,
-    /// True for a fan with an edge at which no face goes on smoothly.
+    /// True for a fan with an edge at which no face goes on smoothly, and at mid nodes, which do not tell.
     at_rim: Vec<bool>,
 }
 
 impl Fans {
     fn new(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Self, Error> {
-        let mut before = vec![0];
-        let mut edges: HashMap<[usize; 2], (usize, [Vector3; 2])> = HashMap::new();
-        let (mut smooth, mut inner) = (Vec::new(), HashSet::new());
+        let (mut before, mut edges) = (vec![0], Vec::new());
         for at in 0..side.count() {
             watch.goes_on()?;
             let face = side.face(at);
@@ -101,11 +99,18 @@ impl Fans {
             for mut ends in face.kind.edges() {
                 ends.sort_unstable_by_key(|&i| face.nodes[i]);
                 let normals = ends.map(|i| face.normal(face.kind.places()[i]));
-                let edge = edges.insert(ends.map(|i| face.nodes[i]), (at, normals));
-                let Some((other, others)) = edge else { continue };
-                if normals.iter().zip(&others).all(|(a, b)| a.dot(b) > SMOOTH) {
-                    smooth.push([at, other]);
-                    inner.insert(ends.map(|i| face.nodes[i]));
+                edges.push((ends.map(|i| face.nodes[i]), at, normals));
+            }
+        }
+        edges.sort_unstable_by_key(|&(ends, at, _)| (ends, at));
+        let (mut smooth, mut inner) = (Vec::new(), HashSet::new());
+        for faces in edges.chunk_by(|one, other| one.0 == other.0) {
+            for (k, (ends, at, normals)) in faces.iter().enumerate() {
+                for (_, other, others) in &faces[..k] {
+                    if normals.iter().zip(others).all(|(a, b)| a.dot(b) > SMOOTH) {
+                        smooth.push([*at, *other]);
+                        inner.insert(*ends);
+                    }
                 }
             }
         }
@@ -124,7 +129,9 @@ impl Fans {
         for at in 0..side.count() {
             let (nodes, own) = (side.nodes(at), &of_node[before[at]..before[at + 1]]);
             own.iter().for_each(|&fan| faces[fan].push(at));
-            for ends in side.kind(nodes).edges() {
+            let kind = side.kind(nodes);
+            own[kind.corners()..].iter().for_each(|&fan| at_rim[fan] = true);
+            for ends in kind.edges() {
                 let mut key = ends.map(|i| nodes[i]);
                 key.sort_unstable();
                 if !inner.contains(&key) {
@@ -164,9 +171,9 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
         // Three rows of nodes, of which the largest faces at an edge have five each, do not determine cubes.
         let is_enough = !is_linear && ring.len() >= 2 * MOST_NODES;
         let near = if is_enough { ring.clone() } else { fans.around(&ring) };
-        let form = match is_linear {
-            true if near.iter().all(|&fan| fans.at_rim[fan]) => Form::Layer,
-            true => Form::Linear,
+        let form = match near.iter().all(|&fan| fans.at_rim[fan]) {
+            true => Form::Layer,
+            false if is_linear => Form::Linear,
             false => Form::Curved,
         };
         let own = node(fan);

@@ -151,6 +151,8 @@ impl Places {
                 let curved = bend.curved();
                 (one + DEAR[2] * (one - curved), 1.0, curved + one / DEAR[1])
             }
+            // Few faces, or one layer of them, do not tell slopes from cubes: those of the faces stay.
+            (Form::Curved, _) => (DEAR[1] * one, 1.0, one),
             _ => (DEAR[0] * one, 1.0, one),
         };
         let [slopes, products] = [slopes, products].map(|block| block * unit);

@@ -344,11 +344,8 @@ fn patches_are_not_continued_far_away() {
         ],
     ];
     for (nodes, faces) in [with_short_edge, with_few].into_iter().zip(faces) {
-        let [slave, master] = std::array::from_fn(|k| Sheet {
-            nodes: nodes[k].clone(),
-            faces: faces[k].clone(),
-            ..Sheet::default()
-        });
+        let [slave, master] =
+            std::array::from_fn(|k| Sheet { nodes: nodes[k].clone(), faces: faces[k].clone() });
         let sheets = TwoSheets::new(3, slave, master);
         let gaps = [TrueShape::Facets, TrueShape::Fitted].map(|shape| {
             let settings = SurfaceSettings { shapes: [shape; 2], ..Default::default() };
