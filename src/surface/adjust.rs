@@ -7,8 +7,8 @@
 
 use std::collections::{BTreeSet, HashSet};
 
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, Weight, without_rounding};
-use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::conjugate_gradients::conjugate_gradients;
 use crate::linalg::sparse_matrix::{Csc, from_entries, times, transpose_times};
@@ -105,7 +105,7 @@ impl SurfacePairs {
                 format!("there are {} coordinates, the pairs have {least}", coordinates.len());
             return Err(Error::invalid(Argument::Coordinates, message));
         }
-        let watch = &mut Watch::new(monitor);
+        let progress = &mut PairingProgress::new(monitor);
         let all = self.pairs.iter().map(|pair| (pair, self.apart(pair, coordinates)));
         let (pairs, apart): (Vec<&SurfacePair>, Vec<Vector3>) =
             all.filter(|(_, apart)| apart.norm() <= within).unzip();
@@ -116,7 +116,8 @@ impl SurfacePairs {
             free.as_slice()[..dim].to_vec()
         });
         let squared = |y: &[f64]| transpose_times(&weights, &times(&weights, y));
-        let shares = conjugate_gradients(squared, &wanted.collect::<Vec<_>>(), || watch.goes_on())?;
+        let shares =
+            conjugate_gradients(squared, &wanted.collect::<Vec<_>>(), || progress.goes_on())?;
         let moves = times(&weights, &shares);
         masters_stay(&motions, &moves)?;
         let mut move_by = |node: &usize, by: &[f64]| {

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::control::Edges;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::{Row, add_face};
 use super::symmetry::OnPlanes;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
@@ -49,23 +49,23 @@ pub(super) fn pair_of_row(
 /// the report.
 ///
 /// # Errors
-/// Those of `pair`, which makes a pair of a node and its row; what ends the watch.
+/// Those of `pair`, which makes a pair of a node and its row; what stops the pairing.
 pub(super) fn pairs_of_rows(
     slave: &Side<'_>,
     rows: BTreeMap<usize, Row>,
     mut report: SurfaceReport,
     pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let watched = |(node, row)| {
-        watch.goes_on()?;
+    let kept = |(node, row)| {
+        progress.goes_on()?;
         pair(node, row)
     };
-    let pairs: Vec<SurfacePair> = rows.into_iter().map(watched).collect::<Result<_, Error>>()?;
+    let pairs: Vec<SurfacePair> = rows.into_iter().map(kept).collect::<Result<_, Error>>()?;
     report.slave_faces = slave.count();
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let mut unpaired = slave.all_nodes();
-    watch.goes_on()?;
+    progress.goes_on()?;
     let mut next = pairs.iter().peekable();
     unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
     Ok(SurfacePairs { dim: slave.dim, pairs, unpaired, report, ..SurfacePairs::default() })
@@ -75,22 +75,22 @@ pub(super) fn pairs_of_rows(
 /// the host's faces is added to the report.
 ///
 /// # Errors
-/// What ends the watch.
+/// What stops the pairing.
 pub(super) fn whole_rows(
     meets: impl Fn(usize) -> bool,
     side: &Side<'_>,
     report: &mut SurfaceReport,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let faces = || (0..side.count()).map(|face| side.face(face));
     let mut edges = Edges::default();
     for face in faces() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         edges.add(face.kind, face.nodes, !face.is_at_axis());
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for (at, face) in faces().enumerate() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let basis = edges.basis(face.kind, face.nodes, true);
         let (on, integrals) = ((face.nodes, &basis), ([face.integrals(); 2], Default::default()));
         report.slave_area += side.own_area(at, integrals.0[0]);

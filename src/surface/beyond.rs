@@ -3,8 +3,8 @@
 use super::candidates::Candidates;
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
+use super::pairing_progress::PairingProgress;
 use super::pairs::SurfaceReport;
-use super::watch::Watch;
 use crate::error::Error;
 
 impl Candidates<'_> {
@@ -12,12 +12,12 @@ impl Candidates<'_> {
     /// where they are inside of a body, and no master face stands before it that looks their way, as that body's other side.
     ///
     /// # Errors
-    /// What ends the watch.
+    /// What stops the pairing.
     pub(super) fn look_beyond(
         mut self,
         [slave, master]: [&Side<'_>; 2],
         report: &mut SurfaceReport,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(), Error> {
         (report.boxes_searched, report.not_opposed) = (self.searched, self.not_opposed);
         let reach = self.reach;
@@ -26,7 +26,7 @@ impl Candidates<'_> {
             (f64::max(reach.overlap, self.span), f64::max(reach.open, self.span));
         let mut overlaps = Overlaps::default();
         for &at in &report.uncovered_faces {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let face = slave.face(at);
             let normal = face.middle_normal();
             let in_plane = SlaveFace::new(&face, normal);

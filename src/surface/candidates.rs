@@ -2,11 +2,11 @@
 
 use super::face::Face;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::plane::Plane;
 use super::shape::BEYOND;
 use super::sweep::Sweep;
 use super::tree::Tree;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
@@ -54,14 +54,14 @@ pub(super) struct SearchFaces<'a> {
 
 impl<'a> SearchFaces<'a> {
     /// # Errors
-    /// What ends the watch.
+    /// What stops the pairing.
     pub(super) fn new(
         side: &'a Side<'a>,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<SearchFaces<'a>, Error> {
         let mut normals = Vec::with_capacity(side.count());
         for face in 0..side.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             normals.push(side.face(face).middle_normal());
         }
         Ok(SearchFaces { side, tree: Tree::new(side), normals })

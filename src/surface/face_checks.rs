@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::digits::ON_PLANE;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::shape::FaceKind;
-use super::watch::Watch;
 use crate::error::{Error, entry, index};
 
 /// A face whose area, at one of its nodes, is below this part of the square of its size has none: 1e-10
@@ -112,12 +112,15 @@ impl Side<'_> {
 
     /// Refuses neighbours that run along their common edge in the same direction, if none runs along it in the other: where
     /// bodies meet in an edge, two do in each.
-    pub(super) fn check_orientation(&self, watch: &mut Watch<'_, '_>) -> Result<(), Error> {
+    pub(super) fn check_orientation(
+        &self,
+        progress: &mut PairingProgress<'_, '_>,
+    ) -> Result<(), Error> {
         let mut seen: HashMap<(usize, usize), usize> =
             HashMap::with_capacity(self.faces.nodes.len());
         let mut again = Vec::new();
         for face in 0..self.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];

@@ -10,10 +10,10 @@ use super::digits::left_open;
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, Weight};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::shape::padded;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
@@ -28,7 +28,7 @@ const A_PART: f64 = 4.0;
 pub(super) fn stand_off(
     [slave, master]: [&Side<'_>; 2],
     settings: &SurfaceSettings,
-    (found, watch): (&mut SurfacePairs, &mut Watch<'_, '_>),
+    (found, progress): (&mut SurfacePairs, &mut PairingProgress<'_, '_>),
 ) -> Result<(), Error> {
     // Those of sides that are tied fit.
     if settings.keep_turns {
@@ -37,17 +37,17 @@ pub(super) fn stand_off(
     let [own, opposite] = settings.shapes.map(|shape| shape == TrueShape::Facets);
     // Of nodes against surfaces slave nodes are on the true surface.
     let own = own && settings.pairing == Pairing::DualMortar;
-    let of_side = |side, is_of_facets, watch: &mut Watch<'_, '_>| match is_of_facets {
-        true => at_all_nodes(side, watch),
+    let of_side = |side, is_of_facets, progress: &mut PairingProgress<'_, '_>| match is_of_facets {
+        true => at_all_nodes(side, progress),
         false => Ok(Vec::new()),
     };
-    let sides = [of_side(slave, own, watch)?, of_side(master, opposite, watch)?];
+    let sides = [of_side(slave, own, progress)?, of_side(master, opposite, progress)?];
     let mean = |away: &[f64], nodes: &[Weight]| -> f64 {
         nodes.iter().map(|(node, part)| part * away.get(*node).unwrap_or(&0.0)).sum()
     };
     found.report.stand_off.reserve_exact(found.pairs.len());
     for pair in &found.pairs {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let both = [mean(&sides[0], pair.slaves()), mean(&sides[1], pair.masters())];
         found.report.stand_off.push((pair.slave, both));
     }
@@ -55,12 +55,15 @@ pub(super) fn stand_off(
 }
 
 /// The mean at each node of what the faces around it stand off; zero at other nodes.
-fn at_all_nodes(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<f64>, Error> {
+fn at_all_nodes(
+    side: &Side<'_>,
+    progress: &mut PairingProgress<'_, '_>,
+) -> Result<Vec<f64>, Error> {
     let count = side.coordinates.len() / side.dim;
     let mut normals = vec![Vector3::zeros(); count];
     let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
     for at in 0..side.count() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let face = side.face(at);
         let own = at_corners(&face);
         for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
@@ -70,7 +73,7 @@ fn at_all_nodes(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Vec<f64>, 
     }
     let mut sums = vec![[0.0; 2]; count];
     for (at, own) in of_faces.iter().enumerate() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let face = side.face(at);
         let away = of_face((&face, own), &normals);
         for &node in face.nodes {
@@ -118,15 +121,15 @@ fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 
 /// are few, or the faces are flat but for the digits of coordinates.
 ///
 /// # Errors
-/// What ends the watch.
+/// What stops the pairing.
 pub(super) fn too_large(
     found: &SurfacePairs,
     (slave, settings): (&Side<'_>, &SurfaceSettings),
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Option<(usize, f64)>, Error> {
     let (mut count, mut most, mut of_them, mut of_all) = (0, 0.0, 0.0, 0.0);
     for (pair, &(_, [own, opposite])) in found.pairs.iter().zip(&found.report.stand_off) {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let lost = own + opposite;
         let weight = pair.area * (own.abs() + opposite.abs());
         // Nodes that were moved onto the other side have left nearly nothing between them.

@@ -14,8 +14,8 @@ use super::face::Face;
 use super::fitted_quadric::{Form, fit};
 use super::mesh::Side;
 use super::normals::direction;
+use super::pairing_progress::PairingProgress;
 use super::shape::{MANY_FACES, MOST_NODES, padded};
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, axis, unit};
 use crate::problem::Islands;
@@ -28,9 +28,12 @@ pub(super) const SMOOTH: f64 = 0.82;
 pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
 
 /// # Errors
-/// What ends the watch.
-pub(super) fn fitted(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
-    if side.dim == 2 { on_lines(side, watch) } else { on_faces(side, watch) }
+/// What stops the pairing.
+pub(super) fn fitted(
+    side: &Side<'_>,
+    progress: &mut PairingProgress<'_, '_>,
+) -> Result<Fitted, Error> {
+    if side.dim == 2 { on_lines(side, progress) } else { on_faces(side, progress) }
 }
 
 /// The nodes of a line in the order in which it runs through them.
@@ -41,10 +44,10 @@ fn along(face: &Face<'_>) -> Vec<usize> {
 /// The neighbours of a node along its line: the chord that ends there, and the one that begins there.
 type Chords = [Option<Vector3>; 2];
 
-fn on_lines(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
+fn on_lines(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Fitted, Error> {
     let mut chords: HashMap<usize, Chords> = HashMap::new();
     for at in 0..side.count() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let face = side.face(at);
         for ends in along(&face).windows(2) {
             let chord = face.x[ends[1]] - face.x[ends[0]];
@@ -90,10 +93,10 @@ struct Fans {
 }
 
 impl Fans {
-    fn new(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Self, Error> {
+    fn new(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Self, Error> {
         let (mut before, mut edges) = (vec![0], Vec::new());
         for at in 0..side.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let face = side.face(at);
             before.push(before[at] + face.nodes.len());
             for mut ends in face.kind.edges() {
@@ -155,8 +158,8 @@ impl Fans {
     }
 }
 
-fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error> {
-    let fans = Fans::new(side, watch)?;
+fn on_faces(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Fitted, Error> {
+    let fans = Fans::new(side, progress)?;
     let node = |fan: usize| {
         let at = fans.faces[fan][0];
         let place = fans.of_face(at).iter().position(|&other| other == fan);
@@ -165,7 +168,7 @@ fn on_faces(side: &Side<'_>, watch: &mut Watch<'_, '_>) -> Result<Fitted, Error>
     let middles: Vec<Vector3> = (0..side.count()).map(|at| side.face(at).middle_normal()).collect();
     let mut normals = Vec::with_capacity(fans.faces.len());
     for (fan, faces) in fans.faces.iter().enumerate() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let ring = fans.around(&BTreeSet::from([fan]));
         let is_linear = side.face(faces[0]).kind.mids().next().is_none();
         // Three rows of nodes, of which the largest faces at an edge have five each, do not determine cubes.

@@ -2,12 +2,12 @@
 
 use super::digits::{ON_PLANE, left_open};
 use super::face::Face;
+use super::pairing_progress::PairingProgress;
 use super::pairs::Weight;
 use super::settings::SurfaceSettings;
 use super::shape::{FaceKind, Values, padded};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
-use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, vector};
 
@@ -62,17 +62,17 @@ impl<'a> Side<'a> {
         mut self,
         scale: f64,
         settings: &SurfaceSettings,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Side<'a>, Error> {
         (self.scale, self.is_axisymmetric) = (scale, settings.axisymmetric);
         if settings.sector.is_some() {
             self.left_open = left_open(self.dim, self.coordinates);
         }
         for face in 0..self.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             self.check_shape(face)?;
         }
-        self.check_orientation(watch)?;
+        self.check_orientation(progress)?;
         Ok(self)
     }
 

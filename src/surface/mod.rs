@@ -50,6 +50,7 @@ mod obstacle;
 mod overlap;
 mod pair_arrays;
 mod pair_surfaces;
+mod pairing_progress;
 mod pairs;
 mod penetration;
 mod plane;
@@ -71,7 +72,6 @@ mod tree;
 mod true_shape;
 mod turns;
 mod unit;
-mod watch;
 mod with_images;
 mod zones;
 

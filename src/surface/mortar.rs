@@ -16,6 +16,7 @@ use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
@@ -24,7 +25,6 @@ use super::self_overlap::UPON;
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
 use super::true_shape::TrueSides;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
@@ -52,17 +52,17 @@ pub(super) fn pairs<'a>(
     planes: &'a OnPlanes,
     (own, candidates): (SearchFaces<'a>, Candidates<'a>),
     settings: &SurfaceSettings,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;
     let mut report = SurfaceReport::default();
-    let shapes = TrueSides::new(sides, settings, watch)?;
+    let shapes = TrueSides::new(sides, settings, progress)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
-        watch.step()?;
-        let cover = search.cover(at, &slave.face(at), watch)?;
+        progress.step()?;
+        let cover = search.cover(at, &slave.face(at), progress)?;
         match &cover {
             (None, _) => report.uncovered_faces.push(at),
             (Some(covered), wholly) => {
@@ -73,12 +73,12 @@ pub(super) fn pairs<'a>(
         faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
-    candidates.look_beyond(sides, &mut report, watch)?;
-    let mut rows = rows(slave, faces, (&mut report, watch))?;
+    candidates.look_beyond(sides, &mut report, progress)?;
+    let mut rows = rows(slave, faces, (&mut report, progress))?;
     if settings.normals == Normals::Averaged {
-        let averaged = slave.node_normals(planes, watch)?;
+        let averaged = slave.node_normals(planes, progress)?;
         for (node, row) in &mut rows {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let mean = averaged[node];
             if mean != Vector3::zeros() {
                 row.normal = row.area * mean;
@@ -86,7 +86,7 @@ pub(super) fn pairs<'a>(
         }
     }
     let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold(settings.rims, &mut rows, on, watch)?;
+    report.folded = rims::fold(settings.rims, &mut rows, on, progress)?;
     let pair = |node, row: Row| {
         let gap = row.gap / row.area;
         // The mean over what the row covers, with the rows that it has taken in.
@@ -98,7 +98,7 @@ pub(super) fn pairs<'a>(
         }
         Ok(pair)
     };
-    pairs_of_rows(slave, rows, report, pair, watch)
+    pairs_of_rows(slave, rows, report, pair, progress)
 }
 
 impl<'a> Search<'a> {
@@ -107,10 +107,10 @@ impl<'a> Search<'a> {
         &mut self,
         at: usize,
         face: &Face<'_>,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Cover, Error> {
         let normal = face.middle_normal();
-        let mut parts = self.opposite(at, (face, normal), watch)?;
+        let mut parts = self.opposite(at, (face, normal), progress)?;
         let Search { sides: [slave, master], own, candidates, shapes, overlaps, polynomials } =
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
         &mut self,
         at: usize,
         (face, normal): (&Face<'_>, Vector3),
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Vec<Opposite<'a>>, Error> {
         let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
         let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
@@ -169,7 +169,7 @@ impl<'a> Search<'a> {
         let reach = candidates.reach;
         let mut parts = Vec::new();
         for &opposite in candidates.of_face(face, normal) {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let other = master.face(opposite);
             let before = overlaps.points.len();
             let wanted = |distance| reach.holds(distance);
@@ -239,11 +239,11 @@ fn one_surface(
 fn rows(
     slave: &Side<'_>,
     faces: Vec<Cover>,
-    (report, watch): (&mut SurfaceReport, &mut Watch<'_, '_>),
+    (report, progress): (&mut SurfaceReport, &mut PairingProgress<'_, '_>),
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let mut edges = Edges::default();
     for (at, (_, wholly)) in faces.iter().enumerate() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let face = slave.face(at);
         edges.add(face.kind, face.nodes, *wholly);
     }
@@ -251,7 +251,7 @@ fn rows(
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     // The memory of a face is given back once its rows have it.
     for (at, (covered, wholly)) in faces.into_iter().enumerate() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         if let Some(covered) = covered {
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
@@ -262,7 +262,7 @@ fn rows(
         }
     }
     for &at in &report.uncovered_faces {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, !face.is_at_axis());
         let (integrals, normal) = (face.integrals(), face.middle_normal());

@@ -14,13 +14,13 @@ use super::candidates::{Candidates, SearchFaces};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{cancel, foot};
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::Row;
 use super::settings::Normals;
 use super::shape::{BEYOND, Local};
 use super::symmetry::OnPlanes;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -116,13 +116,13 @@ pub(super) fn pairs(
     planes: &OnPlanes,
     (mut own, mut candidates): (SearchFaces<'_>, Candidates<'_>),
     normals: Normals,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    let averaged = slave.node_normals(planes, watch)?;
+    let averaged = slave.node_normals(planes, progress)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
         if ray.1 == Vector3::zeros() {
             return Err(cancel(node));
@@ -132,7 +132,7 @@ pub(super) fn pairs(
         }
     }
     let mut report = SurfaceReport::default();
-    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, watch)?;
+    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, progress)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
         for (slave, part) in slaves {
@@ -141,15 +141,15 @@ pub(super) fn pairs(
         }
         Ok(pair_of_row(sides, planes, (node, row), met[&node].normal))
     };
-    let mut found = pairs_of_rows(slave, rows, report, pair, watch)?;
+    let mut found = pairs_of_rows(slave, rows, report, pair, progress)?;
     for at in 0..slave.count() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         if !slave.face(at).nodes.iter().any(|node| met.contains_key(node)) {
             found.report.uncovered_faces.push(at);
         }
     }
     // Their memory is given back between questions.
-    met.into_iter().try_for_each(|_| watch.goes_on())?;
-    candidates.look_beyond(sides, &mut found.report, watch)?;
+    met.into_iter().try_for_each(|_| progress.goes_on())?;
+    candidates.look_beyond(sides, &mut found.report, progress)?;
     Ok(found)
 }

@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
+use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePair;
 use super::sector::Sector;
 use super::sector_boundary::second_boundary;
 use super::sweep::Bounds;
 use super::symmetry::{Mirror, OnPlanes};
-use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::{Matrix3, Vector3};
 
@@ -47,11 +47,11 @@ impl Numbering {
     /// Tells which images of a side's nodes are the same, by its nodes on planes and on boundaries of a sector.
     ///
     /// # Errors
-    /// Two nodes at one place of a boundary; what ends the watch.
+    /// Two nodes at one place of a boundary; what stops the pairing.
     pub(super) fn relate(
         &mut self,
         (side, on): (&Side<'_>, &OnPlanes),
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(), Error> {
         for Mirror { motion, nodes } in &on.mirrors {
             nodes.iter().for_each(|node| self.lay(*node, (*motion, *node)));
@@ -63,7 +63,7 @@ impl Numbering {
                 self.lay(node, (ahead, node));
                 self.lay(node, (back, node));
             }
-            for (second, first) in second_boundary(&ahead, side, watch)? {
+            for (second, first) in second_boundary(&ahead, side, progress)? {
                 self.lay(second, (ahead, first));
                 self.lay(first, (back, second));
                 seconds.insert(second);

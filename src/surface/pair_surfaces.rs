@@ -3,12 +3,12 @@
 
 use super::candidates::{Candidates, Reach, SearchFaces};
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::surfaces::{Master, Surfaces};
 use super::symmetry::OnPlanes;
 use super::unit::Unit;
-use super::watch::Watch;
 use super::with_images::WithImages;
 use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
 use crate::error::{Argument, Error};
@@ -39,19 +39,19 @@ pub fn pair_surfaces(
     settings: &SurfaceSettings,
     monitor: &mut Monitor<'_>,
 ) -> Result<SurfacePairs, Error> {
-    let watch = &mut Watch::new(monitor);
+    let progress = &mut PairingProgress::new(monitor);
     checked_dim(dim)?;
     let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)?;
     let mut found = match master {
         Master::Faces(faces) => {
             let master = slave.opposite(faces)?;
-            pair_sides([slave, master], settings, watch)?
+            pair_sides([slave, master], settings, progress)?
         }
         Master::RigidFaces { coordinates, faces } => {
             let rigid = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-            pair_sides([slave, rigid], settings, watch)?
+            pair_sides([slave, rigid], settings, progress)?
         }
-        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, watch)?,
+        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, progress)?,
     };
     found.set_tangents(settings.tangent);
     Ok(found)
@@ -61,12 +61,12 @@ pub fn pair_surfaces(
 fn pair_sides(
     [slave, master]: [Side<'_>; 2],
     settings: &SurfaceSettings,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let settings = &settings.checked(slave.dim)?;
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
-    let slave = slave.checked(unit.inside, settings, watch)?;
-    let master = master.checked(unit.inside, settings, watch)?;
+    let slave = slave.checked(unit.inside, settings, progress)?;
+    let master = master.checked(unit.inside, settings, progress)?;
     let [mut on, on_master] = [OnPlanes::new(&slave, settings)?, OnPlanes::new(&master, settings)?];
     let reach = reach([(&slave, &on), (&master, &on_master)], settings);
     let within = f64::max(reach.overlap, reach.open).min(span([&slave, &master]));
@@ -74,10 +74,10 @@ fn pair_sides(
     let is_fitted = settings.shapes.contains(&TrueShape::Fitted);
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
     let opposite = Some((&master, &on_master, wanted));
-    let images = WithImages::new(settings, (&slave, &mut on), opposite, watch)?;
+    let images = WithImages::new(settings, (&slave, &mut on), opposite, progress)?;
     let sides = [slave, master];
     let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
-    let mut found = search(sides.each_ref(), (&on, reach), settings, watch)?;
+    let mut found = search(sides.each_ref(), (&on, reach), settings, progress)?;
     on.tell(&mut found.held);
     if master.is_rigid() {
         found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
@@ -89,10 +89,10 @@ fn pair_sides(
     if let Some(images) = images {
         found = images.own_pairs(found, &slave)?;
     }
-    watch.goes_on()?;
+    progress.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
-    watch.goes_on()?;
-    found.report.large_facets = facets::too_large(&found, (&slave, settings), watch)?;
+    progress.goes_on()?;
+    found.report.large_facets = facets::too_large(&found, (&slave, settings), progress)?;
     found.report.stand_off = Vec::new();
     Ok(found)
 }
@@ -102,25 +102,25 @@ fn search(
     sides: [&Side<'_>; 2],
     (on, reach): (&OnPlanes, Reach),
     settings: &SurfaceSettings,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    watch.goes_on()?;
-    let mut own = SearchFaces::new(slave, watch)?;
-    let mut opposite = SearchFaces::new(master, watch)?;
-    watch.expects(2 * slave.count() + master.count());
-    self_overlap::check(slave, &mut own, reach.overlap, watch)?;
+    progress.goes_on()?;
+    let mut own = SearchFaces::new(slave, progress)?;
+    let mut opposite = SearchFaces::new(master, progress)?;
+    progress.expects(2 * slave.count() + master.count());
+    self_overlap::check(slave, &mut own, reach.overlap, progress)?;
     if settings.pairing == Pairing::DualMortar {
-        self_overlap::check(master, &mut opposite, reach.overlap, watch)?;
+        self_overlap::check(master, &mut opposite, reach.overlap, progress)?;
     }
     let candidates = Candidates::new(opposite, reach, span(sides));
     let mut found = match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, watch)?,
+        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, progress)?,
         Pairing::NodeToSurface => {
-            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, watch)?
+            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, progress)?
         }
     };
-    facets::stand_off(sides, settings, (&mut found, watch))?;
+    facets::stand_off(sides, settings, (&mut found, progress))?;
     if settings.keep_turns {
         found.pairs.iter_mut().for_each(|pair| pair.keep_turns(sides));
     }

@@ -20,11 +20,11 @@ use super::digits::ON_PLANE;
 use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
-use super::watch::Watch;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
@@ -84,7 +84,7 @@ impl KeptSurfaces {
         if moved.iter().any(|x| !x.is_finite()) {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
-        let watch = &mut Watch::new(monitor);
+        let progress = &mut PairingProgress::new(monitor);
         let held = &self.held(pairs);
         let slaves = self.before_and_after("slave", &moved, &self.slave)?;
         match &self.master {
@@ -96,19 +96,19 @@ impl KeptSurfaces {
                     let [before, now] = faces.map(|face| depth(face.position(at)));
                     (before <= least).then_some((now, None))
                 };
-                Ok(self.deepest(held, &slaves, watch, through)?.0)
+                Ok(self.deepest(held, &slaves, progress, through)?.0)
             }
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
                 let masters = self.before_and_after("master", &moved, lists)?;
-                let (near, found) = self.through_faces(held, [&slaves, &masters], watch)?;
+                let (near, found) = self.through_faces(held, [&slaves, &masters], progress)?;
                 let mut lists = [vec![0], Vec::new()];
                 for &at in &held.asked {
                     lists[1].extend(slaves[0].nodes(at));
                     lists[0].push(lists[1].len());
                 }
                 let asked = self.before_and_after("slave", &moved, &lists)?;
-                self.masters_through((held, near), [&asked, &masters], found, watch)
+                self.masters_through((held, near), [&asked, &masters], found, progress)
             }
         }
     }
@@ -146,18 +146,18 @@ impl KeptSurfaces {
         &self,
         held: &Held,
         [slaves, masters]: [&[Side<'_>; 2]; 2],
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(BTreeSet<usize>, Found), Error> {
-        let opposite = SearchFaces::new(&masters[1], watch)?;
+        let opposite = SearchFaces::new(&masters[1], progress)?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
         let mut candidates = Self::candidates(opposite, asked);
         let mut near = BTreeSet::new();
         for &at in &held.asked {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let normal = slaves[0].face(at).middle_normal();
             near.extend(candidates.of_face(&slaves[1].face(at), normal));
         }
-        let found = self.deepest(held, slaves, watch, |[first, face], at, least| {
+        let found = self.deepest(held, slaves, progress, |[first, face], at, least| {
             let normal = first.normal(at);
             let point = ([first, face].map(|face| face.position(at)), normal);
             let x = point.0[1] - self.clearance * normal;
@@ -203,13 +203,13 @@ impl KeptSurfaces {
         (held, near_asked): (&Held, BTreeSet<usize>),
         [slaves, masters]: [&[Side<'_>; 2]; 2],
         (mut found, told): Found,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Penetration, Error> {
-        let opposite = SearchFaces::new(&slaves[1], watch)?;
+        let opposite = SearchFaces::new(&slaves[1], progress)?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
         let (mut counted, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
         for of_master in near_asked {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let faces = [0, 1].map(|moved| masters[moved].face(of_master));
             let normal = faces[0].middle_normal();
             let near = candidates.of_face(&faces[1], normal);
@@ -244,13 +244,13 @@ impl KeptSurfaces {
         &self,
         held: &Held,
         [before, after]: &[Side<'_>; 2],
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
         mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
     ) -> Result<Found, Error> {
         let (mut found, mut counted) = (Penetration::default(), HashSet::new());
         let (mut told, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
         for &at in &held.asked {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let faces = [before.face(at), after.face(at)];
             let size = faces[0].size();
             let nodes = faces[0].nodes;

@@ -10,12 +10,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::digits::ON_PLANE;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::Rims;
 use super::shape::MANY_FACES;
 use super::symmetry::OnPlanes;
-use super::watch::Watch;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
@@ -58,23 +58,23 @@ pub(super) fn fold(
     rims: Rims,
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
     let (mut homes, mut little) = (HashMap::new(), Vec::new());
-    let least = least_covers(rims, rows, (slave, uncovered), watch)?;
+    let least = least_covers(rims, rows, (slave, uncovered), progress)?;
     for (&node, row) in rows.iter() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         match least.get(&node).is_none_or(|least| row.cover() >= *least) {
             true => drop(homes.insert(node, true)),
             false => little.push((node, row.cover())),
         }
     }
     little.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, watch)?;
+    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, progress)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
-        watch.goes_on()?;
+        progress.goes_on()?;
         let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
         let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
         let near = beside[&node].clone();
@@ -108,7 +108,7 @@ pub(super) fn fold(
         for (home, worth) in into.iter().filter(|(_, worth)| *worth > 0.0) {
             rows.get_mut(home).expect("a home keeps its row").take_in(&row, worth / sum);
         }
-        watch.goes_on()?;
+        progress.goes_on()?;
         let distance = (slave.position(into[0].0) - slave.position(node)).norm();
         Ok(Fold { node, into: into[0].0, distance })
     };
@@ -120,7 +120,7 @@ fn least_covers(
     rims: Rims,
     rows: &BTreeMap<usize, Row>,
     (slave, uncovered): (&Side<'_>, &[usize]),
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, f64>, Error> {
     let few = |row: &Row| row.cover() < LEAST_COVER - SAME_COVER;
     let at_rims: Vec<usize> =
@@ -128,13 +128,13 @@ fn least_covers(
     if rims == Rims::Keep {
         return Ok(at_rims.into_iter().map(|node| (node, SAME_COVER)).collect());
     }
-    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, watch)?;
+    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, progress)?;
     // From node to node go the best ones alone: where many faces meet in a node all are near each other.
     let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
     for _ in 0..NEAR {
         let mut next = HashMap::with_capacity(beside.len());
         for (&node, around) in &beside {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![*at]);
             let near = around.iter().chain([&node]).flat_map(known).collect();
             next.insert(node, holders(near, rows, (slave, rows[&node].normal.normalize())));
@@ -197,7 +197,7 @@ fn beside(
     (slave, without): (&Side<'_>, &[usize]),
     nodes: impl Iterator<Item = usize>,
     layers: usize,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
     let mut found: HashMap<usize, BTreeSet<usize>> = HashMap::new();
     let mut next: BTreeSet<usize> = nodes.collect();
@@ -205,7 +205,7 @@ fn beside(
         let mut around: HashMap<usize, BTreeSet<usize>> =
             next.into_iter().map(|node| (node, BTreeSet::new())).collect();
         for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let nodes = slave.face(at).nodes;
             for node in nodes {
                 if let Some(list) = around.get_mut(node) {

@@ -6,10 +6,10 @@ use super::candidates::SearchFaces;
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
+use super::pairing_progress::PairingProgress;
 use super::plane::Plane;
 use super::sector::Sector;
 use super::sweep::Sweep;
-use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3};
 
@@ -23,11 +23,11 @@ pub(super) const CLOSE: f64 = 0.01;
 /// the axis are on neither.
 ///
 /// # Errors
-/// Two nodes at one place; what ends the watch.
+/// Two nodes at one place; what stops the pairing.
 pub(super) fn second_boundary(
     motion: &Motion,
     side: &Side<'_>,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
     let nodes = side.all_nodes();
     let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
@@ -35,7 +35,7 @@ pub(super) fn second_boundary(
     let allowed = |node: &usize| near.max(side.left_open.min(PARTNER * rim.edge(*node)));
     let allowed: Vec<f64> = nodes.iter().map(allowed).collect();
     let widest = allowed.iter().copied().fold(near, f64::max);
-    let found = at_images(&places, |x| motion.of(x), widest, || watch.goes_on())?;
+    let found = at_images(&places, |x| motion.of(x), widest, || progress.goes_on())?;
     let mut second = BTreeMap::new();
     for (place, mut same) in found.into_iter().enumerate() {
         let image = motion.of(places[place]);
@@ -109,13 +109,13 @@ impl Rim {
     /// shortest edge; nodes that have partners need none.
     ///
     /// # Errors
-    /// What ends the watch.
+    /// What stops the pairing.
     fn met(
         &self,
         motion: &Motion,
         side: &Side<'_>,
         has_partner: impl Fn(usize) -> bool,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<(usize, [usize; 2])>, Error> {
         let nodes: Vec<usize> = self.beside.keys().copied().collect();
         let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
@@ -123,7 +123,7 @@ impl Rim {
             self.beside[node].iter().map(move |&other| (side.of_host(other) - x).norm())
         });
         let longest = lengths.fold(side.left_open, f64::max);
-        let found = at_images(&places, |x| motion.of(x), longest, || watch.goes_on())?;
+        let found = at_images(&places, |x| motion.of(x), longest, || progress.goes_on())?;
         for ((&node, x), near) in nodes.iter().zip(&places).zip(found) {
             let (image, most) = (motion.of(*x), CLOSE * self.edge(node));
             if has_partner(node) || (image - x).norm() <= most.max(side.left_open) {
@@ -180,16 +180,16 @@ pub(super) fn at_images<E>(
 pub(super) fn check_boundaries(
     slave: &Side<'_>,
     (sector, images): (&Sector, &Images),
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
         images.on_second().iter().flat_map(|(second, (first, _))| [*second, *first]).collect();
-    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, watch)?;
+    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, progress)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
     for node in inner {
         for motion in sector.steps().as_flattened() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let x = slave.position(node);
             let image = slave.scale * motion.of(x / slave.scale);
             if (image - x).norm() <= near {
@@ -206,7 +206,7 @@ pub(super) fn check_boundaries(
             }
         }
     }
-    check_rim(slave, sector, &on_boundary, watch)
+    check_rim(slave, sector, &on_boundary, progress)
 }
 
 /// Refuses a slave side on the rim of which the image of a node lies that is none of its nodes, though surfaces meet there but for
@@ -215,12 +215,12 @@ fn check_rim(
     slave: &Side<'_>,
     sector: &Sector,
     on_boundary: &BTreeSet<usize>,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let rim = Rim::new(slave);
     for motion in sector.steps().as_flattened() {
         let has_partner = |node: usize| on_boundary.contains(&node);
-        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, watch)? {
+        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, progress)? {
             let place = format!("at the edge of nodes {} and {} and is none", index(a), index(b));
             return Err(no_match(sector, node, &place));
         }

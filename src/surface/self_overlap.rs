@@ -6,8 +6,8 @@
 use super::candidates::{SAME_WAY, SearchFaces};
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
+use super::pairing_progress::PairingProgress;
 use super::sweep::Sweep;
-use super::watch::Watch;
 use crate::error::Error;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
@@ -20,16 +20,16 @@ pub(super) const UPON: f64 = 0.05;
 /// It asks the tree once for each face, so it costs `n log n`.
 ///
 /// # Errors
-/// The two faces, and the share that is common; what ends the watch.
+/// The two faces, and the share that is common; what stops the pairing.
 pub(super) fn check(
     side: &Side<'_>,
     SearchFaces { tree, normals, .. }: &mut SearchFaces<'_>,
     reach: f64,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
     for at in 0..side.count() {
-        watch.step()?;
+        progress.step()?;
         let face = side.face(at);
         let distance = reach.min(UPON * face.size());
         tree.near(&Sweep::of_face(&face, normals[at], [distance; 2]), &mut near);

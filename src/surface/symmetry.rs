@@ -11,12 +11,12 @@ use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::normals::{at_nodes, direction};
+use super::pairing_progress::PairingProgress;
 use super::plane;
 use super::sector::Sector;
 use super::self_overlap::UPON;
 use super::settings::SurfaceSettings;
 use super::symmetry_plane::SymmetryPlane;
-use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3, unit, without};
 
@@ -217,22 +217,22 @@ impl Side<'_> {
     /// where they cancel.
     ///
     /// # Errors
-    /// What ends the watch.
+    /// What stops the pairing.
     pub(super) fn node_normals(
         &self,
         planes: &OnPlanes,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
         let mut normals: HashMap<usize, Vector3> = HashMap::new();
         for at in 0..self.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let face = self.face(at);
             for (&node, normal) in face.nodes.iter().zip(at_nodes(&face)) {
                 *normals.entry(node).or_default() += normal;
             }
         }
         for (&node, normal) in &mut normals {
-            watch.goes_on()?;
+            progress.goes_on()?;
             *normal = planes.turned(node, direction(*normal, 1.0).unwrap_or_default());
         }
         Ok(normals)

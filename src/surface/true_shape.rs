@@ -12,10 +12,10 @@ use super::fitted_normals::{Fitted, fitted};
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
+use super::pairing_progress::PairingProgress;
 use super::projected_shapes::Opposite;
 use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
-use super::watch::Watch;
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::{Vector3, axis, unit};
@@ -62,7 +62,7 @@ impl<'a> TrueSides<'a> {
     pub(super) fn new(
         [slave, master]: [&'a Side<'a>; 2],
         settings: &SurfaceSettings,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
         let shapes = &settings.shapes;
         if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
@@ -70,7 +70,9 @@ impl<'a> TrueSides<'a> {
         }
         let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::default()),
-            TrueShape::Fitted => Ok(TrueSide { fitted: Some(fitted(side, watch)?), exact: None }),
+            TrueShape::Fitted => {
+                Ok(TrueSide { fitted: Some(fitted(side, progress)?), exact: None })
+            }
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))

@@ -12,13 +12,13 @@ use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::numbering::{Image, Numbering};
+use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePairs;
 use super::sector_boundary::check_boundaries;
 use super::settings::{SurfaceSettings, TrueShape};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
-use super::watch::Watch;
 use crate::error::Error;
 
 /// A side with its images behind its own nodes and faces.
@@ -46,26 +46,26 @@ impl WithImages {
     ///
     /// # Errors
     /// A side with two nodes at one place of the boundary of a sector; a slave side whose boundaries do not match;
-    /// too many images; what ends the watch.
+    /// too many images; what stops the pairing.
     pub(super) fn new(
         settings: &SurfaceSettings,
         (slave, on): (&Side<'_>, &mut OnPlanes),
         opposite: Option<Opposite<'_, '_>>,
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<WithImages>, Error> {
         if slave.count() == 0 || settings.sector.is_none() && settings.symmetry.is_empty() {
             return Ok(None);
         }
         let sector = settings.sector;
         let mut numbering = Numbering::new(sector, slave);
-        numbering.relate((slave, on), watch)?;
+        numbering.relate((slave, on), progress)?;
         if let Some(sector) = &sector {
-            check_boundaries(slave, (sector, &numbering.images), watch)?;
+            check_boundaries(slave, (sector, &numbering.images), progress)?;
         }
         // Rows depend on the cover of nodes up to eight faces away, and fitted normals on two more.
         let layers = if settings.shapes.contains(&TrueShape::Fitted) { 10 } else { 8 };
-        let faces = layers_beyond(&mut numbering, (slave, layers), watch)?;
-        let own = Extended::new(&mut numbering, slave, &faces, watch)?;
+        let faces = layers_beyond(&mut numbering, (slave, layers), progress)?;
+        let own = Extended::new(&mut numbering, slave, &faces, progress)?;
         on.see(&numbering.images);
         let mut master = None;
         if let Some((side, on, reach)) = opposite {
@@ -77,9 +77,9 @@ impl WithImages {
             } else {
                 &mut numbering
             };
-            of_master.relate((side, on), watch)?;
-            let faces = images_near(of_master, (side, on), &near, watch)?;
-            master = Some(Extended::new(of_master, side, &faces, watch)?);
+            of_master.relate((side, on), progress)?;
+            let faces = images_near(of_master, (side, on), &near, progress)?;
+            master = Some(Extended::new(of_master, side, &faces, progress)?);
         }
         let has_some = |side: &Extended| !side.origins.is_empty();
         let is_alone = !has_some(&own) && !master.as_ref().is_some_and(has_some);
@@ -129,12 +129,12 @@ impl Extended {
     /// A side with images of some of its faces, by the places of their motions.
     ///
     /// # Errors
-    /// Too many images; what ends the watch.
+    /// Too many images; what stops the pairing.
     fn new(
         numbering: &mut Numbering,
         side: &Side<'_>,
         faces: &[Image],
-        watch: &mut Watch<'_, '_>,
+        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Extended, Error> {
         let Faces { start, nodes } = side.faces;
         let mut all = Extended {
@@ -144,7 +144,7 @@ impl Extended {
             origins: faces.iter().map(|(_, face)| *face).collect(),
         };
         for &(place, face) in faces {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let (nodes, corners) = (side.face(face).nodes, side.corners(face).len());
             let first = all.nodes.len();
             for &node in nodes {
@@ -175,15 +175,15 @@ impl Extended {
 /// The images of faces, not of nodes, up to so many layers beyond the boundaries.
 ///
 /// # Errors
-/// Too many images; what ends the watch.
+/// Too many images; what stops the pairing.
 fn layers_beyond(
     numbering: &mut Numbering,
     (side, layers): (&Side<'_>, usize),
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Image>, Error> {
     let mut around: HashMap<usize, Vec<usize>> = HashMap::new();
     for face in 0..side.count() {
-        watch.goes_on()?;
+        progress.goes_on()?;
         side.face(face).nodes.iter().for_each(|node| around.entry(*node).or_default().push(face));
     }
     let (mut found, mut known): (Vec<Image>, HashSet<Image>) = Default::default();
@@ -191,7 +191,7 @@ fn layers_beyond(
     for _ in 0..layers {
         let before = found.len();
         for image in std::mem::take(&mut last) {
-            watch.goes_on()?;
+            progress.goes_on()?;
             for (place, node) in numbering.same(image)?.into_iter().filter(|(place, _)| *place > 0)
             {
                 let faces = around[&node].iter().map(|face| (place, *face));
@@ -211,12 +211,12 @@ fn layers_beyond(
 /// those between.
 ///
 /// # Errors
-/// Too many images; what ends the watch.
+/// Too many images; what stops the pairing.
 fn images_near(
     numbering: &mut Numbering,
     (side, on): (&Side<'_>, &OnPlanes),
     near: &Bounds,
-    watch: &mut Watch<'_, '_>,
+    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Image>, Error> {
     let nodes = side.all_nodes();
     let steps = numbering.steps(on);
@@ -228,7 +228,7 @@ fn images_near(
     while let Some(&place) = places.get(next) {
         next += 1;
         for step in &steps {
-            watch.goes_on()?;
+            progress.goes_on()?;
             let motion = numbering.images.motion(place).after(step);
             let there = numbering.place(&motion)?;
             if !places.contains(&there) && bounds(&nodes, &motion).meets(near) {
@@ -240,7 +240,7 @@ fn images_near(
     for &place in &places[1..] {
         let motion = numbering.images.motion(place);
         for face in 0..side.count() {
-            watch.goes_on()?;
+            progress.goes_on()?;
             if bounds(side.face(face).nodes, &motion).meets(near) {
                 found.push((place, face));
             }

@@ -9,16 +9,16 @@ use crate::monitor::Monitor;
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// How far a pairing is.
-pub(super) struct Watch<'a, 'm> {
+pub(super) struct PairingProgress<'a, 'm> {
     monitor: &'a mut Monitor<'m>,
     asked: Option<Instant>,
     done: usize,
     steps: usize,
 }
 
-impl<'a, 'm> Watch<'a, 'm> {
-    pub(super) fn new(monitor: &'a mut Monitor<'m>) -> Watch<'a, 'm> {
-        Watch { monitor, asked: None, done: 0, steps: 1 }
+impl<'a, 'm> PairingProgress<'a, 'm> {
+    pub(super) fn new(monitor: &'a mut Monitor<'m>) -> PairingProgress<'a, 'm> {
+        PairingProgress { monitor, asked: None, done: 0, steps: 1 }
     }
 
     /// So many steps are to come.
