@@ -26,10 +26,6 @@ const LAST: f64 = 1e-9;
 /// A shape falls along a normal by this at least: faces that oppose each other are inclined by less than 78 degrees.
 const LEAST_FALL: f64 = 0.2;
 
-/// A foot on a patch is no further from where facets meet, in local coordinates: a face whose normals at nodes are within 35 degrees
-/// stands off its patch by a tenth of its length, which normals inclined by 78 degrees carry by half of it.
-const FURTHEST: f64 = 1.0;
-
 /// The degree of a patch: cubics, between those of a quadrilateral times what is linear. With this on both sides integrals of gaps
 /// are exact to some ten digits of what the shapes stand off the faces: beside these, interferences are small.
 const OF_PATCH: usize = 4;
@@ -212,7 +208,9 @@ fn along_to_patch(
         if step[0] * step[0] + step[1] * step[1] <= ROUNDING {
             return Some(along);
         }
-        if !moved.iter().all(|moved| moved.abs() <= FURTHEST) {
+        // A face whose normals at nodes are within 35 degrees stands off its patch by a tenth of its length, which normals inclined by
+        // 78 degrees carry by half of it.
+        if !moved.iter().all(|moved| moved.abs() <= 1.0) {
             break;
         }
     }
