@@ -4,8 +4,8 @@
 //! cones, where `q` follows from `K` and `c`. Places do not always determine all of it: at a free edge there are three rows of
 //! nodes, and conics through three points are many. Then the one is taken that differs least from a sphere, a cylinder or a cone.
 //!
-//! Faces with mid nodes have places enough for any cubes of `x` in the place of products with the height: they are near their shape
-//! as they are, by the fourth power of their length, and so must be the normals of any shape.
+//! Faces with mid nodes have places enough for any cubes of `x` besides: they are near their shape as they are, by the fourth power of
+//! their length, and so must be the normals of any shape.
 
 use std::f64::consts::SQRT_2;
 
@@ -109,13 +109,12 @@ impl Places {
             self.column(a, b, SQRT_2),
             self.column(height, height, by),
         ];
+        columns.extend([a, b].map(|a| self.column(a, height, SQRT_2 * by)));
         if form == Form::Curved {
             let [aa, bb] = [a, b].map(|a| a.iter().map(|a| a * a).collect::<Vec<f64>>());
             let root = 3.0_f64.sqrt();
             let cubic = [(a, &aa, 1.0), (b, &bb, 1.0), (b, &aa, root), (a, &bb, root)];
             columns.extend(cubic.map(|(a, b, by)| self.column(a, b, by)));
-        } else {
-            columns.extend([a, b].map(|a| self.column(a, height, SQRT_2 * by)));
         }
         let nearest = Nearest::new(&columns, ON_PLANE);
         let (heights, squares) =
@@ -124,7 +123,7 @@ impl Places {
         for solution in 0..2 * TURNS {
             let bend = match before {
                 Some(before) if solution == 0 => self.across(before),
-                _ => self.bend(form, &found),
+                _ => self.bend(&found),
             };
             let by = bend.of_square() * self.sizes[2];
             let target = heights.iter().zip(&squares).map(|(height, square)| height - by * square);
@@ -134,7 +133,7 @@ impl Places {
                 nearest.cheapest(&mut found, &self.dear(form, bend));
             }
         }
-        let Bend { squares, products } = self.bend(form, &found);
+        let Bend { squares, products } = self.bend(&found);
         let axes = Matrix3x2::from_columns(&self.axes[..2]);
         let bend = Bend { squares: axes * squares * axes.transpose(), products: axes * products };
         ([0, 1].map(|k| found[k] * self.sizes[2] / self.sizes[k]), bend)
@@ -151,12 +150,12 @@ impl Places {
                 let curved = bend.curved();
                 (one + DEAR[2] * (one - curved), 1.0, curved + one / DEAR[1])
             }
-            // Few faces, or one layer of them, do not tell slopes from cubes: those of the faces stay.
+            // Few faces do not tell slopes from cubes: those of the faces stay.
             (Form::Curved, _) => (DEAR[1] * one, 1.0, one),
             _ => (DEAR[0] * one, 1.0, one),
         };
         let [slopes, products] = [slopes, products].map(|block| block * unit);
-        let count = if form == Form::Curved { 10 } else { 8 };
+        let count = if form == Form::Curved { 12 } else { 8 };
         let mut dear = Matrix::identity(count, count);
         for (k, value) in [(2, long * long), (4, long), (5, square)] {
             dear[(k, k)] = value;
@@ -168,14 +167,11 @@ impl Places {
     }
 
     /// How the quadric with these coefficients bends.
-    fn bend(&self, form: Form, found: &Column) -> Across {
+    fn bend(&self, found: &Column) -> Across {
         let [first, second, high] = self.sizes;
         let mixed = found[4] / SQRT_2 * high / first / second;
         let [a, b] = [(2, first), (3, second)].map(|(k, size)| found[k] * high / size / size);
-        let products = match form {
-            Form::Curved => Vector2::zeros(),
-            _ => Vector2::new(found[6] / first, found[7] / second) * (SQRT_2 / DEAR[1]),
-        };
+        let products = Vector2::new(found[6] / first, found[7] / second) * (SQRT_2 / DEAR[1]);
         Bend { squares: Matrix2::new(a, mixed, mixed, b), products }
     }
 
