@@ -518,8 +518,8 @@ struct signorini_progress {
 
 /**
  * Called before each sweep, pivot or linear system, between them in long work, and often while
- * models are made or surfaces paired. A nonzero result cancels: SIGNORINI_STATUS_CANCELLED, or 0
- * with a solution. It runs on the calling thread, in the default floating-point environment. It
+ * models are made or surfaces paired. A nonzero result cancels: SIGNORINI_STATUS_CANCELLED, or
+ * what was found. It runs on the calling thread, in the default floating-point environment. It
  * must return (no longjmp, no exception), and not call this library.
  */
 typedef int32_t (*signorini_progress_fn)(void *user, const signorini_progress *progress);

@@ -235,7 +235,7 @@ impl dyn Watch + '_ {
     }
 
     /// Why a call ends for which there is no time.
-    fn reason(&self) -> Stop {
+    pub(crate) fn reason(&self) -> Stop {
         if self.budget().is_cancelled.get() { Stop::Cancelled } else { Stop::TimeLimit }
     }
 

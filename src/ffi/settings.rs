@@ -57,8 +57,8 @@ pub struct SignoriniProgress {
 }
 
 /// Called before each sweep, pivot or linear system, between them in long work, and often while
-/// models are made or surfaces paired. A nonzero result cancels: SIGNORINI_STATUS_CANCELLED, or 0
-/// with a solution. It runs on the calling thread, in the default floating-point environment. It
+/// models are made or surfaces paired. A nonzero result cancels: SIGNORINI_STATUS_CANCELLED, or
+/// what was found. It runs on the calling thread, in the default floating-point environment. It
 /// must return (no longjmp, no exception), and not call this library.
 pub type SignoriniProgressFn =
     Option<unsafe extern "C" fn(user: *mut c_void, progress: *const SignoriniProgress) -> i32>;

@@ -30,7 +30,7 @@ use super::gmres::{extend_basis, orthogonalised};
 use super::pivoted_cholesky::PivotedCholesky;
 use super::sparse_schur::Failure;
 use super::tolerances::{CONDENSATION, FREE, HELD, NEGLIGIBLE, SUSPICIOUS_PIVOT};
-use super::vector::{combination, dot, largest_of, norm};
+use super::vector::{combination, dot, norm};
 use super::watched::GoesOn;
 
 /// The matrix from which another one was condensed: of eliminated components, then of those kept.
@@ -201,8 +201,8 @@ fn parted(
     whole: &dyn Whole,
     goes_on: GoesOn<'_>,
 ) -> Option<Vec<Motion>> {
-    let count = candidates.len();
     let mut motions = |scaled: Vec<Vec<f64>>| {
+        let count = scaled.len();
         let motion = |scaled: Vec<f64>| {
             let whole_motion = whole.extended(&divided(&scaled, root), goes_on)?;
             Some(Motion { forces: whole.forces(&whole_motion), whole: whole_motion, scaled })
@@ -214,7 +214,7 @@ fn parted(
         let product = |i: usize, j: usize| dot(&given[i].whole, &given[j].forces);
         (product(i, j) + product(j, i)) / 2.0
     };
-    let Some(directions) = eigenvectors(count, energy) else { return Some(given) };
+    let Some(directions) = eigenvectors(given.len(), energy) else { return Some(given) };
     let scaled = directions.into_iter().map(|shares| {
         combination(root.len(), shares.into_iter().zip(given.iter().map(|given| &given.scaled)))
     });
@@ -225,16 +225,14 @@ fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {
     scaled.iter().zip(root).map(|(x, root)| x / root).collect()
 }
 
-/// Up to `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
-/// remainder first. Remainders that may be rounding are left out.
+/// `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
+/// remainder first.
 pub fn orthonormal(vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
     let mut left: Vec<(f64, Vec<f64>)> =
         vectors.into_iter().map(|vector| (norm(&vector), vector)).collect();
-    let least = SUSPICIOUS_PIVOT * largest_of(left.iter().map(|(size, _)| *size));
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
     while basis.len() < count
         && let Some(k) = (0..left.len()).max_by(|&a, &b| left[a].0.total_cmp(&left[b].0))
-        && left[k].0 > least
     {
         extend_basis(&mut basis, left.swap_remove(k).1);
         let last = &basis[basis.len() - 1..];

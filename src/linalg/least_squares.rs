@@ -92,18 +92,29 @@ impl Columns {
     /// The basis of columns, without those of which no more than this part is left when the ones before are taken out.
     pub fn new(columns: impl Iterator<Item = Vec<f64>>, dependent: f64) -> Self {
         let mut all = Columns::default();
-        for mut own in columns {
-            let (mut column, left, was) = orthogonalised(&mut own, &all.basis);
-            if left > dependent * was {
-                own.iter_mut().for_each(|v| *v /= left);
-                column[all.basis.len()] = left;
-                all.basis.push(own);
-                all.triangle.push(column);
-                all.which.push(all.count);
-            }
-            all.count += 1;
-        }
+        columns.for_each(|own| all.push(own, dependent));
         all
+    }
+
+    /// One more column, which is left out of the basis if no more than this part of it is left.
+    pub fn push(&mut self, mut own: Vec<f64>, dependent: f64) {
+        let (mut column, left, was) = orthogonalised(&mut own, &self.basis);
+        if left > dependent * was {
+            own.iter_mut().for_each(|v| *v /= left);
+            column[self.basis.len()] = left;
+            self.basis.push(own);
+            self.triangle.push(column);
+            self.which.push(self.count);
+        }
+        self.count += 1;
+    }
+
+    /// Leaves the first `count` columns.
+    pub fn truncate(&mut self, count: usize) {
+        self.which.retain(|&column| column < count);
+        self.basis.truncate(self.which.len());
+        self.triangle.truncate(self.which.len());
+        self.count = count;
     }
 
     /// True if no column depends on earlier ones.

@@ -11,73 +11,99 @@ const SLOPE: f64 = 1e-13;
 /// lowers the distance, so that no set of columns comes twice, and ten leave room for ties.
 const MOST_STEPS: usize = 10;
 
-/// `target + sum x_j columns_j` of least length with `x >= 0`; `None` if that is zero up to rounding.
-pub fn nearest(target: &[f64], columns: &[Vec<f64>]) -> Option<Vec<f64>> {
+/// What columns with coefficients of no less than zero leave of a target.
+pub enum Nearest {
+    /// The least that they leave.
+    Left(Vec<f64>),
+    /// Nothing but rounding, with these coefficients, each with its column.
+    Nothing(Vec<(usize, f64)>),
+}
+
+/// `target + sum x_j columns_j` of least length with `x >= 0`.
+pub fn nearest(target: &[f64], columns: &[Vec<f64>]) -> Nearest {
     let size = norm(target);
-    let mut active: Vec<usize> = Vec::new();
-    let mut x: Vec<f64> = Vec::new();
+    let lengths: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
+    let mut active =
+        Active { columns, which: Vec::new(), x: Vec::new(), basis: Columns::default() };
     let mut rest = target.to_vec();
     for _ in 0..MOST_STEPS * (target.len() + columns.len()) {
-        let Some(entering) = steepest(&rest, columns, &active) else { break };
-        active.push(entering);
-        x.push(0.0);
+        let Some(entering) = steepest(&rest, (columns, &lengths), &active.which) else { break };
+        active.enter(entering);
         // A column that depends on the active ones: its remaining slope is rounding.
-        let Some(left) = descend(target, columns, &mut active, &mut x) else { break };
+        let Some(left) = active.descend(target) else { break };
         rest = left;
         if norm(&rest) <= SLOPE * size {
-            return None;
+            return Nearest::Nothing(active.which.into_iter().zip(active.x).collect());
         }
     }
-    (size > 0.0).then_some(rest)
+    if size > 0.0 { Nearest::Left(rest) } else { Nearest::Nothing(Vec::new()) }
 }
 
 /// The column along which the length of `rest` falls fastest, if it falls by more than rounding.
-fn steepest(rest: &[f64], columns: &[Vec<f64>], active: &[usize]) -> Option<usize> {
-    let least = SLOPE * norm(rest);
-    (0..columns.len())
-        .filter(|j| !active.contains(j))
-        .map(|j| (dot(&columns[j], rest) / dot(&columns[j], &columns[j]).sqrt(), j))
-        .filter(|(slope, _)| *slope < -least)
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, j)| j)
-}
-
-/// Moves `x` to the least squares solution on the active columns; a column whose coefficient reaches
-/// zero on the way becomes inactive. `None`: the active columns are dependent.
-fn descend(
-    target: &[f64],
-    columns: &[Vec<f64>],
-    active: &mut Vec<usize>,
-    x: &mut Vec<f64>,
-) -> Option<Vec<f64>> {
-    loop {
-        let (wanted, rest) = shortest(target, columns, active)?;
-        let blocking = (0..x.len())
-            .filter(|&k| wanted[k] <= 0.0)
-            .map(|k| (x[k] / (x[k] - wanted[k]).max(f64::MIN_POSITIVE), k))
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((part, leaving)) = blocking else {
-            *x = wanted;
-            return Some(rest);
-        };
-        for (x, wanted) in x.iter_mut().zip(&wanted) {
-            *x += part * (wanted - *x);
-        }
-        active.remove(leaving);
-        x.remove(leaving);
-    }
-}
-
-/// The `x` for which `target + sum x_j columns_j` is shortest, and that sum; `None` if the columns are dependent. By
-/// orthogonal directions: products of the columns with each other would lose half the digits of columns next to each
-/// other, and a sum of columns that nearly balances the target its direction.
-fn shortest(
-    target: &[f64],
-    columns: &[Vec<f64>],
+fn steepest(
+    rest: &[f64],
+    (columns, lengths): (&[Vec<f64>], &[f64]),
     active: &[usize],
-) -> Option<(Vec<f64>, Vec<f64>)> {
-    let basis = Columns::new(active.iter().map(|&j| columns[j].clone()), SLOPE);
-    let mut rest = opposite(target);
-    let shares = basis.take_out(&mut rest);
-    basis.are_independent().then(|| (basis.coefficients(shares), opposite(&rest)))
+) -> Option<usize> {
+    let least = SLOPE * norm(rest);
+    let slopes = columns.iter().zip(lengths).map(|(column, length)| dot(column, rest) / length);
+    slopes
+        .enumerate()
+        .filter(|(j, slope)| *slope < -least && !active.contains(j))
+        .min_by(|(_, a), (_, b)| a.total_cmp(b))
+        .map(|(j, _)| j)
+}
+
+/// The columns whose coefficients are not zero, in the order in which they have entered.
+struct Active<'c> {
+    columns: &'c [Vec<f64>],
+    which: Vec<usize>,
+    x: Vec<f64>,
+    basis: Columns,
+}
+
+impl Active<'_> {
+    fn enter(&mut self, column: usize) {
+        self.which.push(column);
+        self.x.push(0.0);
+        self.basis.push(self.columns[column].clone(), SLOPE);
+    }
+
+    fn leave(&mut self, place: usize) {
+        self.which.remove(place);
+        self.x.remove(place);
+        self.basis.truncate(place);
+        let behind = self.which[place..].iter();
+        behind.for_each(|&column| self.basis.push(self.columns[column].clone(), SLOPE));
+    }
+
+    /// Moves `x` to the least squares solution on the active columns, and returns what these leave; a column whose coefficient
+    /// reaches zero on the way becomes inactive. `None`: the active columns are dependent.
+    fn descend(&mut self, target: &[f64]) -> Option<Vec<f64>> {
+        loop {
+            let (wanted, rest) = self.shortest(target)?;
+            let blocking = (0..self.x.len())
+                .filter(|&k| wanted[k] <= 0.0)
+                .map(|k| (self.x[k] / (self.x[k] - wanted[k]).max(f64::MIN_POSITIVE), k))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((part, leaving)) = blocking else {
+                self.x = wanted;
+                return Some(rest);
+            };
+            for (x, wanted) in self.x.iter_mut().zip(&wanted) {
+                *x += part * (wanted - *x);
+            }
+            self.leave(leaving);
+        }
+    }
+
+    /// The `x` for which `target + sum x_j columns_j` is shortest, and that sum; `None` if the columns are dependent. By
+    /// orthogonal directions: products of the columns with each other would lose half the digits of columns next to each
+    /// other, and a sum of columns that nearly balances the target its direction.
+    fn shortest(&self, target: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let mut rest = opposite(target);
+        let shares = self.basis.take_out(&mut rest);
+        let independent = self.basis.are_independent();
+        independent.then(|| (self.basis.coefficients(shares), opposite(&rest)))
+    }
 }

@@ -1,7 +1,7 @@
 //! Rigid bodies whose stiffness is rounding: the change of variables, or the product with the matrix, cancels.
 
 use crate::common::problems::{uniform, vector};
-use crate::constrained::{Constrained, Terms, close, solved};
+use crate::constrained::{Constrained, Terms, close, in_axes, solved};
 use fastrand::Rng;
 use signorini::{Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
 
@@ -207,5 +207,67 @@ fn a_rigid_body_on_springs_needs_no_rows_in_the_matrix() {
             close(&other.certificate.force, &whole.certificate.force, 1e-9, &context);
             close(&other.d, &whole.d, 1e-9, &context);
         }
+    }
+}
+
+/// Equal disks in a pile of rows on a floor, each of weight 1 with nothing but contact to hold it, stand with friction .6, as a linear
+/// program over the edges of the cones says: some forces in the cones balance each disk, to a hundred times the tolerance, and no
+/// disk moves.
+#[test]
+fn a_pile_of_rigid_disks_stands() {
+    for rows in 2..=6 {
+        let mut places = Vec::new();
+        for j in 0..rows {
+            let height = 0.5 + 0.75_f64.sqrt() * j as f64;
+            places.extend((0..rows - j).map(|i| [i as f64 + 0.5 * j as f64, height]));
+        }
+        let part = |disk: usize, [x, y]: [f64; 2], sign: f64| {
+            let first = 3 * disk;
+            let turn = vec![-sign * y, sign * x];
+            [(first, vec![sign, 0.0]), (first + 1, vec![0.0, sign]), (first + 2, turn)]
+        };
+        let (mut meeting, mut normals) = (Vec::new(), Vec::new());
+        for (a, one) in places.iter().enumerate() {
+            if one[1] == 0.5 {
+                meeting.push(part(a, [0.0, -0.5], 1.0).to_vec());
+                normals.extend([0.0, -1.0]);
+            }
+            for (b, other) in places.iter().enumerate().skip(a + 1) {
+                let to = [other[0] - one[0], other[1] - one[1]];
+                if (to[0].hypot(to[1]) - 1.0).abs() < 1e-9 {
+                    let own = part(a, to.map(|x| 0.5 * x), 1.0);
+                    let others = part(b, to.map(|x| -0.5 * x), -1.0);
+                    meeting.push([own, others].concat());
+                    normals.extend(to);
+                }
+            }
+        }
+        let size = 3 * places.len();
+        let (rows_of_pairs, pairs) = (meeting.clone(), meeting.len());
+        let structure = Constrained {
+            dim: 2,
+            stiffness: vec![0.0; size * size],
+            fixed: vec![],
+            equations: vec![],
+            rows: meeting,
+            normals,
+            tangents: None,
+        };
+        let load: Vec<f64> = [0.0, -1.0, 0.0].repeat(places.len());
+        let model = structure.whole(&Settings::default());
+        let solution = solved(&model, &load, &vec![0.0; pairs], 0.6);
+        assert!(solution.d.iter().all(|d| d.abs() < 1e-12), "{rows}: no disk moves");
+        let force = &solution.certificate.force;
+        let in_axes = in_axes(model.frames().expect("it has pairs"), force, 2);
+        let mut left = load;
+        for (pair, row) in rows_of_pairs.iter().enumerate() {
+            let [n, t] = [force[2 * pair], force[2 * pair + 1]];
+            assert!(n <= 1e-12 && t.abs() <= -0.6 * n + 1e-12, "{rows}, pair {pair}: {n}, {t}");
+            for (dof, along) in row {
+                left[*dof] += along[0] * in_axes[2 * pair] + along[1] * in_axes[2 * pair + 1];
+            }
+        }
+        let most = left.iter().fold(0.0_f64, |most, left| most.max(left.abs()));
+        assert!(most < 1e-10, "{rows}: {most:e} is left of a weight of 1");
     }
 }

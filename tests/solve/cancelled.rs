@@ -100,3 +100,25 @@ fn a_proof_is_asked_between_blocks() {
         assert!(with >= without + 2 * blocks, "{without}, {with}");
     }
 }
+
+/// A row of pairs that a stiff bar ties, so that displacements are refined behind Newton's method: a callback that cancels there has
+/// cancelled, whatever time is left.
+#[test]
+fn a_call_that_is_cancelled_while_it_refines_is_no_matter_of_time() {
+    for stiff in (5..=8).map(|exponent| 10_f64.powi(exponent)) {
+        let mut case = waves(0.3);
+        let n = 2 * PAIRS;
+        let along = |i: usize| (0.7 * i as f64).cos();
+        for (j, column) in case.k.chunks_exact_mut(n).enumerate() {
+            let ties = column.iter_mut().enumerate();
+            ties.for_each(|(i, entry)| *entry += stiff * along(i) * along(j));
+        }
+        let settings = Settings { tolerance: 1e-12, ..Settings::default() };
+        let (_, all) = cancelled(&case, &settings, u64::MAX);
+        for last in all.saturating_sub(12).max(1)..=all {
+            let (solution, _) = cancelled(&case, &settings, last);
+            let is_sound = matches!(solution.status, Status::Cancelled | Status::Solved);
+            assert!(is_sound, "{stiff:e}, {last} of {all}: {}", solution.message);
+        }
+    }
+}

@@ -15,7 +15,7 @@ use crate::law::{Contact, Linearised, Piece};
 use crate::linalg::double_double::add_to_parts;
 use crate::linalg::tolerances::NULL_VECTOR;
 use crate::linalg::vector::{largest_of, norm_inf};
-use crate::monitor::{Stop, Watch};
+use crate::monitor::Watch;
 use crate::solve::pieces::{Equations, SMALL, System};
 use crate::solve::result::{Call, Candidate, Ending, Errors};
 
@@ -47,7 +47,7 @@ pub fn refine_to_tolerance(call: &Call<'_>, candidate: &mut Candidate) {
         *candidate = refined;
         candidate.ending = Ending::Done;
     } else if newton.is_stopped && candidate.ending == Ending::Done {
-        candidate.ending = Ending::Stopped(Stop::TimeLimit);
+        candidate.ending = Ending::Stopped(call.monitor.reason());
     }
 }
 

@@ -19,7 +19,9 @@ use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
 use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
-use crate::solve::result::{Ending, Solution};
+use crate::settings::Settings;
+use crate::solve::result::{Ending, Solution, Status};
+use crate::solve::rigid::{Balance, RigidMotions};
 
 /// Solves the problem from the displacements `start`; each round by `means`.
 pub fn solve(
@@ -63,7 +65,36 @@ pub fn solve(
         let force = vec![0.0; relation.size()];
         rounds(problem, &mut bodies, force, Means { settings, ..means })
     })?;
-    Ok(found.solution)
+    match found.solution.status {
+        Status::Stalled => {
+            let found = found.solution;
+            let rest = at_rest(problem, known, (settings, &found));
+            Ok(rest.unwrap_or(found))
+        }
+        _ => Ok(found.solution),
+    }
+}
+
+/// Rigid bodies at rest, if none has a stiffness and forces in the friction cones of closed pairs balance the loads: masonry stands
+/// if it can (J. Heyman: *The stone skeleton*. International Journal of Solids and Structures 2 (1966) 249–279).
+fn at_rest(
+    problem: &ContactProblem<'_, DependentRows<'_>>,
+    known: &[Vec<f64>],
+    (settings, found): (&Settings, &Solution),
+) -> Option<Solution> {
+    let relation = problem.relation();
+    let variables = relation.dependence.variables();
+    if known.len() < variables {
+        return None;
+    }
+    let d = relation.relative(&vec![0.0; variables]);
+    let contact = Contact::new(problem);
+    let motions = RigidMotions { root: problem.unit_roots(), basis: known.to_vec() };
+    let is_closed = |pair: usize| contact.pairs()[pair].touches(d[problem.dim() * pair]);
+    let force = Balance::of(&contact, motions, |_| false).balanced(is_closed).ok()?;
+    let found =
+        ended(&contact, (d, &force), settings, (found.method, &Ending::Done, found.factorisations));
+    (found.status == Status::Solved).then_some(found)
 }
 
 /// The bodies between the pairs, with springs.

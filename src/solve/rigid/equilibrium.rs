@@ -16,9 +16,9 @@ use std::f64::consts::SQRT_2;
 
 use super::motions::RigidMotions;
 use crate::certificate::is_escape_of;
-use crate::law::Contact;
+use crate::law::{Contact, PairLaw};
 use crate::linalg::least_squares::least_squares;
-use crate::linalg::nnls;
+use crate::linalg::nnls::{self, Nearest};
 use crate::linalg::tolerances::NEGLIGIBLE;
 use crate::linalg::vector::{dot, norm};
 use crate::monitor::Watch;
@@ -108,33 +108,56 @@ impl<'c, R: Relation> Balance<'c, R> {
 
     /// A recession direction that the loads drive, if it is found by the cones in which forces have no bound.
     pub fn escape(&self) -> Option<Vec<f64>> {
+        self.balanced(|_| true).err()?
+    }
+
+    /// Forces in the cones of pairs that may press that balance the loads, or a recession direction that these drive. In space
+    /// forces of few edges are looked at, and `Err(None)` says nothing.
+    pub fn balanced(&self, presses: impl Fn(usize) -> bool) -> Result<Vec<f64>, Option<Vec<f64>>> {
         let contact = self.contact;
         let load = self.on_motions(contact.load_with_tension(), 0);
-        let mut edges = Vec::new();
-        for (pair, law) in contact.pairs().iter().enumerate() {
-            let own = law.cone_edges();
-            edges.extend(own.iter().map(|edge| self.on_pair(edge, pair)));
-        }
+        let pairs = contact.pairs().iter().enumerate().filter(|(pair, _)| presses(*pair));
+        let of_pair = |(pair, law): (usize, &PairLaw)| {
+            law.cone_edges().into_iter().map(move |edge| (pair, edge))
+        };
+        let mut edges: Vec<(usize, [f64; 3])> = pairs.flat_map(of_pair).collect();
         let mut last = Vec::new();
         for _ in 0..MOST_ROUNDS {
-            let rest = nnls::nearest(&load, &edges)?;
+            let columns: Vec<Vec<f64>> =
+                edges.iter().map(|(pair, edge)| self.on_pair(edge, *pair)).collect();
+            let rest = match nnls::nearest(&load, &columns) {
+                Nearest::Left(rest) => rest,
+                Nearest::Nothing(shares) => return Ok(self.sum(&edges, &shares)),
+            };
             let motion = self.motions.motion(&rest);
             if self.nearest(&motion) <= NEARLY * self.motions.size(&motion) {
                 let proof = self.sharpened(motion.clone());
                 if (self.proves)(&proof) {
-                    return Some(proof);
+                    return Err(Some(proof));
                 }
             }
             if rest == last {
-                return None;
+                break;
             }
-            for pair in self.worst(&motion).into_iter().take(JOINING) {
+            let worst = self.worst(&motion).into_iter().filter(|&pair| presses(pair));
+            for pair in worst.take(JOINING) {
                 let own = &motion[contact.dim() * pair..contact.dim() * (pair + 1)];
-                edges.push(self.on_pair(&contact.pairs()[pair].opposing_edge(own), pair));
+                edges.push((pair, contact.pairs()[pair].opposing_edge(own)));
             }
             last = rest;
         }
-        None
+        Err(None)
+    }
+
+    /// The forces with these shares of edges of pairs.
+    fn sum(&self, edges: &[(usize, [f64; 3])], shares: &[(usize, f64)]) -> Vec<f64> {
+        let (dim, mut force) = (self.contact.dim(), vec![0.0; self.motions.root.len()]);
+        for &(column, share) in shares {
+            let (pair, edge) = &edges[column];
+            let own = force[dim * pair..].iter_mut().zip(&edge[..dim]);
+            own.for_each(|(force, edge)| *force += share * edge);
+        }
+        force
     }
 
     /// Work on each motion of forces whose first component is `first`.
@@ -249,7 +272,7 @@ impl<'c, R: Relation> Balance<'c, R> {
         }
         let mut target = vec![0.0; self.motions.basis.len()];
         target.push(-1.0);
-        let mut rest = nnls::nearest(&target, &columns)?;
+        let Nearest::Left(mut rest) = nnls::nearest(&target, &columns) else { return None };
         let along = -rest.pop()?;
         rest.iter_mut().for_each(|x| *x *= nearest / along);
         Some(self.motions.motion(&rest))
