@@ -26,6 +26,8 @@ pub struct Certificate {
     pub is_resisted: bool,
     /// `true` if the forces are so small that products have lost their digits.
     pub(crate) underflows: bool,
+    /// `true` if more than the loads is left, although nothing but these makes forces.
+    pub(crate) hides_loads: bool,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,
     /// Largest tensile `F_n` of `F = K d - f` beyond the tension that the law allows, a force; 0 if none.
@@ -68,11 +70,12 @@ impl Certificate {
 
     /// Why a candidate is not certified, whatever its `eta`.
     pub(crate) fn doubt(&self) -> Option<&'static str> {
-        match (self.runs_away(), self.underflows) {
-            (true, _) => Some("the displacements are so large that rounding hides the forces"),
-            (_, true) => Some("the forces are so small that products have lost their digits"),
-            _ => None,
-        }
+        let doubts = [
+            (self.runs_away(), "the displacements are so large that rounding hides the forces"),
+            (self.underflows, "the forces are so small that products have lost their digits"),
+            (self.hides_loads, "the forces are so large that rounding hides the loads"),
+        ];
+        doubts.into_iter().find(|(holds, _)| *holds).map(|(_, doubt)| doubt)
     }
 
     /// Number of pairs in a state.
@@ -193,6 +196,7 @@ pub(super) fn measure_pair<R: Relation>(
         hidden,
         is_resisted,
         underflows: underflow > UNIT * scale.max(norm(&terms.each)),
+        hides_loads: size > load && !unloaded && terms.inherent == 0.0,
         penetration,
         tension,
         cone_excess,
