@@ -96,13 +96,16 @@ impl Dependence {
     }
 }
 
-/// The diagonal of `K`, positive: where nothing resists a variable, its largest entry, and without any `of_rigid`.
+/// The diagonal of `K`, positive: where nothing resists a variable, its largest entry, and without any `of_rigid`. Entries of the
+/// variables are off by rounding, so that energies of the square of it are none.
 pub(super) fn units_of_variables((stiffness, of_rigid): (&Matrix<'_>, f64)) -> Vec<f64> {
-    let otherwise = match stiffness.largest_diagonal() {
-        largest if largest > 0.0 => largest,
-        _ => of_rigid,
-    };
-    (0..stiffness.size()).map(|j| stiffness.unit(j, 1, otherwise)).collect()
+    let largest = stiffness.largest_diagonal();
+    let otherwise = if largest > 0.0 { largest } else { of_rigid };
+    let rounding = (f64::EPSILON * stiffness.size() as f64).powi(2) * largest;
+    let is_resisted = |j: &usize| stiffness.at(*j, *j) > rounding;
+    (0..stiffness.size())
+        .map(|j| if is_resisted(&j) { stiffness.unit(j, 1, otherwise) } else { otherwise })
+        .collect()
 }
 
 /// The diagonal of `K` in series over the variables of a row, the least of a pair for its tangents.
