@@ -21,8 +21,7 @@ pub struct Certificate {
     pub rounding: f64,
     /// Rounding of `K d`, relative to the forces, that a motion which nothing holds may hide behind, dimensionless.
     pub(crate) hidden: f64,
-    /// `true` if `K` resists `d` by more than rounding of its entries explains; looked at only where
-    /// `hidden` is above [`ROUNDING_LIMIT`].
+    /// `true` if `K` resists `d` by more than rounding of its entries; looked at where `hidden` is above [`ROUNDING_LIMIT`].
     pub is_resisted: bool,
     /// `true` if the forces are so small that products have lost their digits.
     pub(crate) underflows: bool,
@@ -50,8 +49,7 @@ impl Certificate {
         self.eta <= tolerance && self.doubt().is_none()
     }
 
-    /// Copies the certificate with the rounding of its evaluation in `eta`, as far as a tolerance that `eta` meets. An
-    /// `eta` of 0 with more rounding than that stays.
+    /// A copy with the rounding of its evaluation in `eta`, as far as a tolerance that `eta` meets; 0 with more rounding stays.
     pub(crate) fn with_rounding(self, tolerance: f64) -> Self {
         let eta = if self.residual <= tolerance {
             self.residual
@@ -215,8 +213,8 @@ pub fn eta(problem: &ContactProblem<'_>, d: &[f64], raw: &[f64]) -> f64 {
 
 /// [`eta`], on a problem whose laws are worked out.
 pub(crate) fn eta_of(contact: &Contact<'_>, d: &[f64], raw: &[f64]) -> f64 {
-    let size = natural_sum(contact.each(d, raw)).root();
-    ratio(size, norm(contact.problem().relation().load()).max(norm(raw)))
+    let load = norm(contact.problem().relation().load());
+    ratio(natural_sum(contact.each(d, raw)).root(), load.max(norm(raw)))
 }
 
 /// The measures by the laws of all pairs for displacements `d + low` and forces.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::common::problems::{uniform, vector};
 use crate::constrained::{Constrained, close, solved};
 use fastrand::Rng;
-use signorini::{Error, Settings};
+use signorini::{Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
 
 /// Adds `k v vᵀ`.
 fn add_spring(stiffness: &mut [f64], k: f64, v: &[f64]) {
@@ -120,5 +120,57 @@ fn rounding_of_stiff_springs_beside_a_soft_one_is_no_negative_energy() {
             }
             _ => panic!("{name}: a negative energy passes"),
         }
+    }
+}
+
+/// Two squares of four nodes on bars of random stiffness, one on the other on a slope steeper than friction; springs hold the lower
+/// one. The upper one slides: the balance of its rigid motions proves that no equilibrium exists. Rounding moves the pairs
+/// of the lower square in these motions, and forces of these pairs, however large, would seem to hold the upper one.
+#[test]
+fn a_body_slides_off_another_one_that_springs_hold() {
+    for seed in 0..100 {
+        let rng = &mut Rng::with_seed(seed);
+        let spring = 10_f64.powi(rng.i32(-5..=1));
+        let mut stiffness = vec![0.0; 256];
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0_f64]];
+        for body in [0, 4] {
+            for (i, j) in (0..4).flat_map(|j| (0..j).map(move |i| (i, j))) {
+                let mut v = vec![0.0; 16];
+                for axis in 0..2 {
+                    let along = corners[j][axis] - corners[i][axis];
+                    (v[2 * (body + i) + axis], v[2 * (body + j) + axis]) = (along, -along);
+                }
+                add_spring(&mut stiffness, uniform(rng, 0.5, 2.0), &v);
+            }
+        }
+        (0..8).for_each(|dof| stiffness[17 * dof] += spring);
+        let onto = |node: usize, below: usize| {
+            let other = row(below).into_iter().map(|(dof, v)| (dof, vec![-v[0], -v[1]]));
+            row(node).into_iter().chain(other).collect()
+        };
+        let structure = Constrained {
+            dim: 2,
+            stiffness,
+            fixed: vec![],
+            equations: vec![],
+            rows: vec![row(0), row(1), onto(4, 2), onto(5, 3)],
+            normals: [0.0, -1.0].repeat(4),
+            tangents: None,
+        };
+        let model = structure.tried(&Settings::default()).expect("it stands");
+        let (settings, mu) = (Settings::default(), vec![0.1; 4]);
+        let load = [0.2_f64.sin(), -0.2_f64.cos()].repeat(8);
+        let case = LoadCase {
+            load: &load,
+            prescribed: None,
+            gap: &[0.0; 4],
+            law: FrictionLaw::Coulomb(&mu),
+            reference_slip: None,
+        };
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        assert_eq!(solution.status, Status::NoEquilibrium, "seed {seed}: {}", solution.message);
+        // Sweeps, whose drift proves it at the earliest after 256 of them, are not asked.
+        assert!(solution.iterations < 256, "seed {seed}: {}", solution.iterations);
     }
 }

@@ -20,7 +20,7 @@ use crate::law::{Contact, PairLaw};
 use crate::linalg::least_squares::least_squares;
 use crate::linalg::nnls::{self, Nearest};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector::{dot, norm};
+use crate::linalg::vector::{dot, largest_of, norm};
 use crate::monitor::Watch;
 use crate::problem::{Relation, Stiffness};
 use crate::solve::result::{Call, Ending};
@@ -117,10 +117,13 @@ impl<'c, R: Relation> Balance<'c, R> {
         let contact = self.contact;
         let load = self.on_motions(contact.load_with_tension(), 0);
         let pairs = contact.pairs().iter().enumerate().filter(|(pair, _)| presses(*pair));
-        let of_pair = |(pair, law): (usize, &PairLaw)| {
-            law.cone_edges().into_iter().map(move |edge| (pair, edge))
-        };
+        let of_pair =
+            |(pair, law): (usize, &PairLaw)| law.cone_edges().into_iter().map(move |e| (pair, e));
         let mut edges: Vec<(usize, [f64; 3])> = pairs.flat_map(of_pair).collect();
+        // Motions move the pairs of other bodies by rounding, which would ask for forces without end.
+        let moved = |(pair, edge): &(usize, [f64; 3])| norm(&self.on_pair(edge, *pair));
+        let least = NEARLY * largest_of(edges.iter().map(moved));
+        edges.retain(|edge| moved(edge) > least);
         let mut last = Vec::new();
         for _ in 0..MOST_ROUNDS {
             let columns: Vec<Vec<f64>> =
