@@ -115,6 +115,7 @@ REMARKED = (
     ("nothing holds it along the plane", Remark.FREE_MOTION,
      lambda: solve(np.diag([1.0, 0.0]), [1.0, 0.0], 0)),
     ("a model of which nothing is wrong", Remark(0), lambda: model().solve(PRESS, 0)),
+    ("mu in percent, of a model", Remark.FRICTION_LARGE, lambda: model().solve(PRESS, 0, mu=30)),
 )
 
 
@@ -134,6 +135,7 @@ class Mistakes(unittest.TestCase):
                 result = call()
                 self.assertEqual(result.status, signorini.Status.SOLVED)
                 self.assertEqual(result.report.remarks, remark)
+                self.assertEqual("remark" in result.message, remark != 0)
             print(f"| {mistake} | Python | {result.status.name} | {result.report.remarks!r} |")
 
     def test_a_plane_that_points_away(self):

@@ -366,8 +366,8 @@ class Model(Remade):
         tolerance, results, told = call.settings.tolerance, [], False
         for c, code in enumerate(member(Status, value) for value in status):
             words = self._functions.status_string(code).decode()
-            if code != 0 and not told:  # the library's sentence is of the first of them
-                words, told = message.removeprefix(f"case {c}: "), True
+            if (code != 0 or cases is None) and not told:  # the library's sentence is of the first of them
+                words, told = message.removeprefix(f"case {c}: ") or words, True
             case = data if cases is None else data.of(c)
             result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
             passed = self._penetration(case, result) if penetration and self.contact else None
