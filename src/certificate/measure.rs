@@ -25,7 +25,7 @@ pub struct Certificate {
     pub is_resisted: bool,
     /// `true` if the forces are so small that products have lost their digits.
     pub(crate) underflows: bool,
-    /// `true` if more than the loads is left, although nothing but these makes forces.
+    /// `true` if the residual is larger than the loads, although nothing but these makes forces: no gap that closes, no slip before.
     pub(crate) hides_loads: bool,
     /// Largest `d_n - gap`, a length; 0 if none.
     pub penetration: f64,

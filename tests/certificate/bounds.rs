@@ -329,3 +329,24 @@ fn forces_below_the_margin_tell_no_states() {
         assert_eq!(certificate.states, [Stick, expected], "2^{exponent}, {mu}");
     }
 }
+
+/// The first pair has gone so far that its stiffness of 1e-13 makes a force of 1, which the load doubles where it should balance it.
+/// Its coupling presses the second pair with 3e11: beside that the 2 which are left are 7e-12, a solution by `eta`, although the
+/// load alone makes all forces and is 1. It is none; with a load that balances it is.
+#[test]
+fn what_is_left_is_no_more_than_the_loads() {
+    let (away, coupling) = (1e13, 0.03);
+    for (load, is_solution) in [(1.0, false), (-1.0, true)] {
+        let mut k = vec![0.0; 16];
+        for (i, entry) in [1e-13, 1.0, 1e10, 1.0].into_iter().enumerate() {
+            k[5 * i] = entry;
+        }
+        (k[2], k[8]) = (coupling, coupling);
+        let f = vec![load, 0.0, 0.0, 0.0];
+        let law = Law::Coulomb(vec![0.3; 2]);
+        let case = Case { dim: 2, pairs: 2, k, f, gap: vec![0.0; 2], law, slip: None };
+        let certificate = certify(&case.problem(), &[-away, 0.0, 0.0, 0.0]);
+        assert!(certificate.eta < 1e-11, "{load}: {:e}", certificate.eta);
+        assert_eq!(certificate.holds(1e-10), is_solution, "{load}");
+    }
+}
