@@ -703,10 +703,9 @@ struct signorini_extra {
     double *radius_d;
     double *radius_F;      /**< Likewise of the contact forces; force. */
     /**
-     * With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape of independent pairs, its largest
-     * entry 1: K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0,
-     * if every pair of finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves
-     * nothing. Else zeros.
+     * With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, its largest entry 1: K r = 0, no
+     * pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every pair of
+     * finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves nothing. Else zeros.
      */
     double *escape;
     double *d_low; /**< The last digits of d: d + d_low is what the report measures; length. */

@@ -114,6 +114,12 @@ impl<'a> Monitor<'a> {
     }
 }
 
+/// A monitor that ends nothing.
+#[cfg(test)]
+pub(crate) fn unwatched() -> &'static dyn Watch {
+    Box::leak(Box::new(Monitor::new(&Settings::default(), None)))
+}
+
 impl Watch for Monitor<'_> {
     fn budget(&self) -> &Budget {
         &self.budget

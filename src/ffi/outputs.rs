@@ -135,10 +135,9 @@ pub struct SignoriniExtra {
     pub radius_d: *mut f64,
     /// Likewise of the contact forces; force.
     pub radius_F: *mut f64,
-    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape of independent pairs, its largest
-    /// entry 1: K r = 0, no pair approaches its obstacle, friction opposes the slip, and f . r > 0,
-    /// if every pair of finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves
-    /// nothing. Else zeros.
+    /// With SIGNORINI_STATUS_NO_EQUILIBRIUM the motion of escape, its largest entry 1: K r = 0, no
+    /// pair approaches its obstacle, friction opposes the slip, and f . r > 0, if every pair of
+    /// finite gap touches. With SIGNORINI_STATUS_STALLED a motion that proves nothing. Else zeros.
     pub escape: *mut f64,
     /// The last digits of d: d + d_low is what the report measures; length.
     pub d_low: *mut f64,

@@ -203,11 +203,12 @@ fn parted(
 ) -> Option<Vec<Motion>> {
     let mut motions = |scaled: Vec<Vec<f64>>| {
         let count = scaled.len();
+        let scaled = orthonormal(scaled, count, goes_on)?;
         let motion = |scaled: Vec<f64>| {
             let whole_motion = whole.extended(&divided(&scaled, root), goes_on)?;
             Some(Motion { forces: whole.forces(&whole_motion), whole: whole_motion, scaled })
         };
-        orthonormal(scaled, count).into_iter().map(motion).collect::<Option<Vec<Motion>>>()
+        scaled.into_iter().map(motion).collect::<Option<Vec<Motion>>>()
     };
     let given = motions(candidates)?;
     let energy = |i: usize, j: usize| {
@@ -226,19 +227,28 @@ fn divided(scaled: &[f64], root: &[f64]) -> Vec<f64> {
 }
 
 /// `count` orthonormal vectors that span the given ones, by Gram and Schmidt's process with the longest
-/// remainder first.
-pub fn orthonormal(vectors: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
+/// remainder first; `None` where `goes_on` says no.
+pub fn orthonormal(
+    vectors: Vec<Vec<f64>>,
+    count: usize,
+    goes_on: GoesOn<'_>,
+) -> Option<Vec<Vec<f64>>> {
     let mut left: Vec<(f64, Vec<f64>)> =
         vectors.into_iter().map(|vector| (norm(&vector), vector)).collect();
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(count);
     while basis.len() < count
         && let Some(k) = (0..left.len()).max_by(|&a, &b| left[a].0.total_cmp(&left[b].0))
     {
+        if !goes_on() {
+            return None;
+        }
         extend_basis(&mut basis, left.swap_remove(k).1);
         let last = &basis[basis.len() - 1..];
-        left.iter_mut().for_each(|(size, other)| (_, *size, _) = orthogonalised(other, last));
+        // Motions of bodies that do not touch each other share nothing.
+        let sharing = left.iter_mut().filter(|(_, other)| dot(&last[0], other) != 0.0);
+        sharing.for_each(|(size, other)| (_, *size, _) = orthogonalised(other, last));
     }
-    basis
+    Some(basis)
 }
 
 /// Parts the components that the free motions move on their own: returns them, and leaves of the motions those of the other
@@ -271,7 +281,7 @@ fn separate(
         let left = free.len().saturating_sub(alone.len());
         let mut rest = std::mem::take(free);
         rest.iter_mut().for_each(|v| alone.iter().for_each(|&i| v[i] = 0.0));
-        *free = orthonormal(rest, left);
+        *free = orthonormal(rest, left, goes_on)?;
     }
     Some(alone)
 }

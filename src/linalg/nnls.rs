@@ -2,6 +2,7 @@
 
 use super::least_squares::Columns;
 use super::vector::{dot, norm, opposite};
+use super::watched::GoesOn;
 
 /// Slopes above this part of what is left of the target would still lower the distance: ten times the rounding of one
 /// sum, as the residual itself is a sum. No more left of the target than this part is nothing.
@@ -19,8 +20,8 @@ pub enum Nearest {
     Nothing(Vec<(usize, f64)>),
 }
 
-/// `target + sum x_j columns_j` of least length with `x >= 0`.
-pub fn nearest(target: &[f64], columns: &[Vec<f64>]) -> Nearest {
+/// `target + sum x_j columns_j` of least length with `x >= 0`; `None` where `goes_on` says no.
+pub fn nearest(target: &[f64], columns: &[Vec<f64>], goes_on: GoesOn<'_>) -> Option<Nearest> {
     let size = norm(target);
     let lengths: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
     let mut active =
@@ -28,15 +29,18 @@ pub fn nearest(target: &[f64], columns: &[Vec<f64>]) -> Nearest {
     let mut rest = target.to_vec();
     for _ in 0..MOST_STEPS * (target.len() + columns.len()) {
         let Some(entering) = steepest(&rest, (columns, &lengths), &active.which) else { break };
+        if !goes_on() {
+            return None;
+        }
         active.enter(entering);
         // A column that depends on the active ones: its remaining slope is rounding.
         let Some(left) = active.descend(target) else { break };
         rest = left;
         if norm(&rest) <= SLOPE * size {
-            return Nearest::Nothing(active.which.into_iter().zip(active.x).collect());
+            return Some(Nearest::Nothing(active.which.into_iter().zip(active.x).collect()));
         }
     }
-    if size > 0.0 { Nearest::Left(rest) } else { Nearest::Nothing(Vec::new()) }
+    Some(if size > 0.0 { Nearest::Left(rest) } else { Nearest::Nothing(Vec::new()) })
 }
 
 /// The column along which the length of `rest` falls fastest, if it falls by more than rounding.

@@ -80,7 +80,7 @@ impl<'a> DependentRows<'a> {
         let units = units_of_variables((&self.stiffness, self.of_rigid));
         let scale = units.iter().map(|unit| unit.sqrt().recip()).collect();
         let all = (0..self.stiffness.size()).collect();
-        let block = FreeBlock::new(self.stiffness, all, scale, goes_on)?;
+        let block = FreeBlock::new(self.stiffness, all, scale, &mut *goes_on)?;
         let scaled = |motion: Vec<f64>| {
             let mut scaled = self.dependence.relative(&motion);
             scaled.iter_mut().zip(&self.units).for_each(|(d, unit)| *d *= unit.sqrt());
@@ -89,7 +89,7 @@ impl<'a> DependentRows<'a> {
         };
         let motions: Vec<Vec<f64>> = block.null_vectors().map(scaled).collect();
         let count = motions.len();
-        Some(orthonormal(motions, count))
+        orthonormal(motions, count, goes_on)
     }
 
     /// `C z + o`.

@@ -2,12 +2,13 @@
 //! solution is said for what it is.
 
 use crate::common::brick::{Brick, Support};
-use crate::common::dense::{difference, largest};
+use crate::common::dense::{difference, dot, largest};
 use crate::common::problems::{uniform, vector};
 use crate::rows::{Host, solved, springs};
 use fastrand::Rng;
 use signorini::{
-    Error, FrictionLaw, LoadCase, Monitor, Search, Settings, Solution, State, Status, Uniqueness,
+    Error, Escape, FrictionLaw, LoadCase, Monitor, Search, Settings, Solution, State, Status,
+    Uniqueness,
 };
 
 /// A node on springs of stiffness 2 along each axis, against rigid planes with these outward normals.
@@ -484,6 +485,15 @@ fn a_free_cube_rests_in_a_corner() {
         if mu < 0.5_f64.sqrt() {
             let away = checked(&host, &load(-1.0), &gap, mu);
             assert_eq!(away.status, Status::NoEquilibrium, "mu {mu}: {}", away.message);
+            // It can be drawn: the motion is of size 1, no wall stops it, and nothing balances the loads along it.
+            let Escape { motion, unbalanced } = away.escape.expect("a motion to draw");
+            let rounding = 1e-9;
+            assert!((largest(&motion) - 1.0).abs() < rounding, "mu {mu}: {motion:?}");
+            assert!(
+                motion.iter().step_by(3).all(|normal| *normal < rounding),
+                "mu {mu}: {motion:?}"
+            );
+            assert!(dot(&motion, &unbalanced) > rounding, "mu {mu}: {unbalanced:?}");
         }
     }
 }

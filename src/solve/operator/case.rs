@@ -290,7 +290,8 @@ fn balance(tried: &mut Tried<'_, '_>) -> Result<(), Ending> {
     let Tried { equations, bodies, best, .. } = tried;
     let contact = equations.contact;
     let Some(motions) = FreeMotions::of(bodies, contact.dim())? else { return Ok(()) };
-    let (balance, d) = (motions.balance(contact, bodies.operator), &best.point.at.x);
+    let (balance, d) =
+        (motions.balance(contact, bodies.operator, bodies.monitor), &best.point.at.x);
     let found = balance
         .escape()
         .map_or_else(|| balance.ending_away(&d[bodies.operator.inner()..]), Ending::Recession);
@@ -320,7 +321,8 @@ fn describe(
     // If others are not found in time, the motion of the proof stands for all.
     let motions = ended(FreeMotions::of(bodies, contact.dim()))?.unwrap_or_default();
     let fits = condensed::fits(contact.unknowns(), (bodies.operator.inner(), contact.unknowns()));
-    let balance = motions.as_ref().map(|motions| motions.balance(contact, bodies.operator));
+    let balance =
+        motions.as_ref().map(|motions| motions.balance(contact, bodies.operator, bodies.monitor));
     let solve = fits.then_some(plan::solve as Solve);
     rigid::describe(contact, solution, balance, solve, bodies.monitor)
 }

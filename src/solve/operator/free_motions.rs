@@ -12,6 +12,7 @@ use crate::linalg::eigen::eigenvectors;
 use crate::linalg::gmres::orthogonalised;
 use crate::linalg::perturbation::Perturbation;
 use crate::linalg::vector::{combination, dot};
+use crate::monitor::Watch;
 use crate::problem::{HeldSet, MatrixFree, StiffnessOperator};
 use crate::solve::result::Ending;
 use crate::solve::rigid::{Balance, RigidMotions};
@@ -100,12 +101,13 @@ impl FreeMotions {
         &'c self,
         contact: &'c Contact<'c, MatrixFree<'c>>,
         bodies: &'c dyn StiffnessOperator,
+        monitor: &'c dyn Watch,
     ) -> Balance<'c, MatrixFree<'c>> {
         // Products with a sparse matrix do not fail.
         let proves = move |r: &[f64]| {
             is_spread_escape(contact, bodies, &self.continued(r)).unwrap_or_default()
         };
-        Balance::of(contact, self.rigid.clone(), proves)
+        Balance::of(contact, self.rigid.clone(), monitor, proves)
     }
 
     /// All unknowns of the free motion with the relative displacements `r`.

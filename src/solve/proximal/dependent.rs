@@ -19,7 +19,6 @@ use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
 use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
-use crate::settings::Settings;
 use crate::solve::result::{Ending, Solution, Status};
 use crate::solve::rigid::{Balance, RigidMotions};
 
@@ -68,7 +67,7 @@ pub fn solve(
     match found.solution.status {
         Status::Stalled => {
             let found = found.solution;
-            let rest = at_rest(problem, known, (settings, &found));
+            let rest = at_rest(problem, known, (means, &found));
             Ok(rest.unwrap_or(found))
         }
         _ => Ok(found.solution),
@@ -80,7 +79,7 @@ pub fn solve(
 fn at_rest(
     problem: &ContactProblem<'_, DependentRows<'_>>,
     known: &[Vec<f64>],
-    (settings, found): (&Settings, &Solution),
+    (Means { settings, monitor, .. }, found): (Means<'_>, &Solution),
 ) -> Option<Solution> {
     let relation = problem.relation();
     let variables = relation.dependence.variables();
@@ -91,7 +90,7 @@ fn at_rest(
     let contact = Contact::new(problem);
     let motions = RigidMotions { root: problem.unit_roots(), basis: known.to_vec() };
     let is_closed = |pair: usize| contact.pairs()[pair].touches(d[problem.dim() * pair]);
-    let force = Balance::of(&contact, motions, |_| false).balanced(is_closed).ok()?;
+    let force = Balance::of(&contact, motions, monitor, |_| false).balanced(is_closed).ok()?;
     let found =
         ended(&contact, (d, &force), settings, (found.method, &Ending::Done, found.factorisations));
     (found.status == Status::Solved).then_some(found)

@@ -7,6 +7,7 @@ use crate::monitor::Watch;
 use crate::problem::{ContactProblem, Relation, Stiffness};
 use crate::settings::{Method, Settings};
 use crate::solve::result::{Call, Ending, Solution, Solve, Status, Uniqueness, wanted};
+use crate::solve::rigid::{self, Balance};
 
 /// How a problem with springs is solved.
 #[derive(Clone, Copy)]
@@ -33,7 +34,14 @@ pub fn step<R: Relation>(
     let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
     let law = problem.law();
     let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
-    solve(&Call::new(&Contact::new(&problem), settings, monitor))
+    let contact = &Contact::new(&problem);
+    let mut solution = solve(&Call::new(contact, settings, monitor))?;
+    if solution.status == Status::NoEquilibrium {
+        // Springs do no work on motions of the bodies that move with them: the escape is that of the bodies.
+        let balance = Balance::new(contact, monitor);
+        rigid::describe(contact, &mut solution, balance, Some(solve), monitor)?;
+    }
+    Ok(solution)
 }
 
 /// The result of displacements `d` and forces that a method has ended with, and the number of its systems.

@@ -63,16 +63,17 @@ pub struct Balance<'c, R = Stiffness<'c>> {
     pub(super) motions: RigidMotions,
     /// The certificate.
     proves: Box<Proves<'c>>,
+    monitor: &'c dyn Watch,
 }
 
 impl<'c> Balance<'c> {
     /// `None` if `K` is not symmetric, if there are no such motions, or if there is no time to find them.
-    pub fn new(contact: &'c Contact<'c>, monitor: &dyn Watch) -> Option<Self> {
+    pub fn new(contact: &'c Contact<'c>, monitor: &'c dyn Watch) -> Option<Self> {
         if !contact.problem().is_symmetric() {
             return None;
         }
         let motions = RigidMotions::of(contact.problem(), monitor)?;
-        Some(Balance::of(contact, motions, move |r: &[f64]| is_escape_of(contact, r)))
+        Some(Balance::of(contact, motions, monitor, move |r: &[f64]| is_escape_of(contact, r)))
     }
 }
 
@@ -81,9 +82,10 @@ impl<'c, R: Relation> Balance<'c, R> {
     pub fn of(
         contact: &'c Contact<'c, R>,
         motions: RigidMotions,
+        monitor: &'c dyn Watch,
         proves: impl Fn(&[f64]) -> bool + 'c,
     ) -> Self {
-        Balance { contact, motions, proves: Box::new(proves) }
+        Balance { contact, motions, proves: Box::new(proves), monitor }
     }
 
     /// The ending of a method along whose motion bodies move away: a proof that no equilibrium exists, if the motion
@@ -106,13 +108,14 @@ impl<'c, R: Relation> Balance<'c, R> {
         if (self.proves)(&rigid) { rigid } else { motion }
     }
 
-    /// A recession direction that the loads drive, if it is found by the cones in which forces have no bound.
+    /// A recession direction that the loads drive, if it is found by the cones in which forces have no bound,
+    /// and in time.
     pub fn escape(&self) -> Option<Vec<f64>> {
         self.balanced(|_| true).err()?
     }
 
     /// Forces in the cones of pairs that may press that balance the loads, or a recession direction that these drive. In space
-    /// forces of few edges are looked at, and `Err(None)` says nothing.
+    /// forces of few edges are looked at, and `Err(None)` says nothing; nor does it where the monitor ends the search.
     pub fn balanced(&self, presses: impl Fn(usize) -> bool) -> Result<Vec<f64>, Option<Vec<f64>>> {
         let contact = self.contact;
         let load = self.on_motions(contact.load_with_tension(), 0);
@@ -128,9 +131,10 @@ impl<'c, R: Relation> Balance<'c, R> {
         for _ in 0..MOST_ROUNDS {
             let columns: Vec<Vec<f64>> =
                 edges.iter().map(|(pair, edge)| self.on_pair(edge, *pair)).collect();
-            let rest = match nnls::nearest(&load, &columns) {
-                Nearest::Left(rest) => rest,
-                Nearest::Nothing(shares) => return Ok(self.sum(&edges, &shares)),
+            let rest = match nnls::nearest(&load, &columns, &mut self.monitor.asking()) {
+                Some(Nearest::Left(rest)) => rest,
+                Some(Nearest::Nothing(shares)) => return Ok(self.sum(&edges, &shares)),
+                None => break,
             };
             let motion = self.motions.motion(&rest);
             if self.nearest(&motion) <= NEARLY * self.motions.size(&motion) {
@@ -275,7 +279,8 @@ impl<'c, R: Relation> Balance<'c, R> {
         }
         let mut target = vec![0.0; self.motions.basis.len()];
         target.push(-1.0);
-        let Nearest::Left(mut rest) = nnls::nearest(&target, &columns) else { return None };
+        let left = nnls::nearest(&target, &columns, &mut self.monitor.asking())?;
+        let Nearest::Left(mut rest) = left else { return None };
         let along = -rest.pop()?;
         rest.iter_mut().for_each(|x| *x *= nearest / along);
         Some(self.motions.motion(&rest))

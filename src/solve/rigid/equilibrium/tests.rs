@@ -3,9 +3,8 @@
 use super::{Balance, STOPPED, escape, solved};
 use crate::law::Contact;
 use crate::linalg::gmres::extend_basis;
-use crate::monitor::Monitor;
+use crate::monitor::unwatched;
 use crate::problem::{ContactProblem, FrictionLaw};
-use crate::settings::Settings;
 use crate::solve::result::Ending;
 use crate::solve::rigid::motions::RigidMotions;
 use fastrand::Rng;
@@ -42,7 +41,9 @@ fn only_a_motion_that_nothing_stops_and_that_proves_it_is_a_recession() {
             let motion = along_normals(by);
             let motions = RigidMotions::along(&problem, &motion);
             // A motion that is turned away from the obstacles is another one, which is not taken for a proof.
-            let balance = Balance::of(&contact, motions, |r| proves && r[0] * by > 0.5 * by * by);
+            let balance = Balance::of(&contact, motions, unwatched(), |r| {
+                proves && r[0] * by > 0.5 * by * by
+            });
             match balance.ending_away(&motion) {
                 Ending::Recession(_) => assert!(expected, "{by}, {proves}"),
                 Ending::RunsAway(_) => assert!(!expected, "{by}, {proves}"),
@@ -57,8 +58,12 @@ fn only_a_motion_that_nothing_stops_and_that_proves_it_is_a_recession() {
 fn pairs_that_approach_are_told_in_order() {
     let problem = body(FrictionLaw::Frictionless);
     let contact = Contact::new(&problem);
-    let balance =
-        Balance::of(&contact, RigidMotions::along(&problem, &along_normals(1.0)), |_| true);
+    let balance = Balance::of(
+        &contact,
+        RigidMotions::along(&problem, &along_normals(1.0)),
+        unwatched(),
+        |_| true,
+    );
     for (normals, expected) in [
         ([1.0, -1.0, 2.0], vec![2, 0]),
         ([-1.0, 0.5, 0.25], vec![1, 2]),
@@ -94,7 +99,7 @@ fn what_rounding_leaves_of_an_approach_is_lifted() {
             [noise * (2.0 * rng.f64() - 1.0) / root[0] - mu * slip.abs(), slip]
         };
         let motion: Vec<f64> = motions.root.chunks_exact(2).flat_map(slides).collect();
-        let balance = Balance::of(&contact, motions.clone(), |_| true);
+        let balance = Balance::of(&contact, motions.clone(), unwatched(), |_| true);
         let cleared = balance.cleared(motion.clone());
         let nearest = balance.nearest(&cleared);
         assert!(nearest <= STOPPED * motions.size(&cleared), "{seed}: {nearest:e}");
@@ -123,7 +128,7 @@ fn a_pair_that_nearly_rests_is_lifted_off_all_forces_of_its_cone() {
         let unit = |i: usize| (0..6).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
         let basis = (0..4).map(unit).collect();
         let motions = RigidMotions { root: problem.unit_roots(), basis };
-        let balance = Balance::of(&contact, motions, |_| true);
+        let balance = Balance::of(&contact, motions, unwatched(), |_| true);
         let size = 2.0_f64.powi(rng.i32(-30..=30));
         let own: [f64; 3] = std::array::from_fn(|_| size * 1e-8 * (rng.f64() - 0.5));
         let motion = [own[0].abs(), own[1], own[2], -size, 0.0, 0.0];
@@ -198,8 +203,7 @@ fn a_slope_that_is_too_steep_by_little_has_a_proof() {
         let mus = [mu; 4];
         let of_pairs = (&[0.0; 4][..], FrictionLaw::Coulomb(&mus), None);
         let problem = ContactProblem::of_test(3, (&k, &load), of_pairs);
-        let monitor = &mut Monitor::new(&Settings::default(), None);
-        let proof = escape(&Contact::new(&problem), monitor);
+        let proof = escape(&Contact::new(&problem), unwatched());
         assert_eq!(proof.is_some(), eps > 0.0, "{seed}: mu {mu}, eps {eps:e}");
     }
 }
