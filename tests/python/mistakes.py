@@ -151,8 +151,29 @@ class Mistakes(unittest.TestCase):
     def test_no_pairs(self):
         far = SQUARE + np.outer(np.arange(8) > 3, [0, 90])
         contact = signorini.pair_surfaces(far, [[4, 5]], [[3, 2]])
-        with self.assertWarnsRegex(UserWarning, "zone 'cut': no pairs: .*larger search distance"):
-            Model.from_surfaces((np.ones(16), np.arange(16), np.arange(17)), {"cut": contact})
+        ground = signorini.pair_obstacle(far, [[0, 1]], signorini.Plane([0, 0], [0, 1]))
+        for zones in {"cut": contact}, {"ground": ground, "cut": contact}:
+            with self.assertWarnsRegex(UserWarning, "zone 'cut': no pairs: .*larger search distance"):
+                Model.from_surfaces((np.ones(16), np.arange(16), np.arange(17)), zones)
+
+    def test_numbers_of_nodes_that_do_not_turn(self):
+        """Two springs of nodes with a rotation each: the numbers of nodes without one take rotations for displacements."""
+        def spring(k):
+            return np.kron([[1, -1], [-1, 1]], k)
+        turning = np.zeros((12, 12))
+        turning[:6, :6], turning[6:, 6:] = spring(np.diag([1.0, 1.0, 0.1])), spring(np.diag([1.0, 1.0, 0.1]))
+        turning[[2, 5, 8, 11], [2, 5, 8, 11]] += 0.1
+        columns = (turning.T.ravel(), np.tile(np.arange(12), 12), np.arange(0, 145, 12))
+        at = np.array([[0, 0], [1, 0], [0, 0], [1, 0.0]])
+        for dofs, is_told in ({}, True), ({"dofs_per_node": 3}, False), ({"dofs": np.arange(12).reshape(4, 3)[:, :2]}, False):
+            contact = signorini.pair_surfaces(at, [[0, 1]], [[3, 2]], **dofs)
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                Model.from_surfaces(columns, contact, fixed=[0, 1, 2, 6, 7, 8])
+            of_numbers = [str(one.message) for one in told if "rows for each" in str(one.message)]
+            self.assertEqual(of_numbers, [
+                "K has 3 rows for each of 4 nodes, and the degrees of freedom of the pairs are those of nodes that have 2: "
+                "give dofs_per_node=3 to pair_surfaces, or dofs"] * is_told)
 
     def test_faces_within_a_mesh(self):
         """Faces whose nodes count from 1 lie within the body, or beyond the mesh, and are named; parts of faces of the skin,

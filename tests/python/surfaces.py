@@ -331,8 +331,12 @@ class Blocks(unittest.TestCase):
         contact = signorini.pair_surfaces(places, inner % 24, 24 + outer[:, ::-1] % 40, clearance=-1e-3)
         for named, of in ((contact, ""), ({"fit": contact}, "zone 'fit': ")):
             model = signorini.Model.from_surfaces(springs, named)
-            with self.assertWarnsRegex(UserWarning, f"^{of}at 24 pairs the facets of both sides .* larger than the interference"):
-                model.solve(np.zeros(128), mu=0.0)
+            for gap in None, contact.gaps, {"fit": contact.gaps}, np.stack([contact.gaps] * 2):
+                if isinstance(gap, dict) and not of:
+                    continue
+                loads = np.zeros((2, 128) if np.ndim(gap) == 2 else 128)
+                with self.assertWarnsRegex(UserWarning, f"^{of}at 24 pairs the facets of both sides .* larger than the interference"):
+                    model.solve(loads, gap, mu=0.0)
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 model.solve(np.zeros(128), gap=-1e-3, mu=0.0)

@@ -71,6 +71,12 @@ class Zones(unittest.TestCase):
             self.assertIsNone(model.solve(self.load, mu=0.3, penetration=False).penetration)
         pickled = pickle.loads(pickle.dumps(result))
         self.assertEqual(pickled.penetration.sentence, result.penetration.sentence)
+        with self.assertWarnsRegex(UserWarning, "have passed"):
+            loads = np.outer([1.0, 0.0, 0.5] * 20, self.load)
+            depths = [one.penetration and one.penetration.depth for one in model.solve(loads, mu=0.3)]
+        self.assertEqual(depths[:2], [result.penetration.depth, None])
+        self.assertTrue(0 < depths[2] < depths[0])
+        self.assertEqual(depths, depths[:3] * 20)
         # One pair that never touches, and rounding, say nothing of the others; a clearance of 4 lets all pass by.
         gaps = contacts["below"].gaps
         for below in ([gaps[0], np.inf], gaps + 1e-12):

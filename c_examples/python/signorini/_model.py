@@ -21,11 +21,13 @@ from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
-from ._symmetry import warn_of_facets, warn_of_nodes_beside, warn_of_planes, warn_of_repeats, warn_of_rings
+from ._symmetry import (warn_of_facets, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
+                        warn_of_rings)
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
 
 _UNTOUCHED = np.iinfo(np.int32).min
+_AT_ONCE = 32  # cases whose displacements of the host are there at a time
 _LOADS_OF_THE_CASE = object()  # what recover is given where its caller forgot f
 _NO_STIFFNESS = {
     ModelKind.STIFFNESS: "the rows of pairs ({dependent} of them) follow from those of other pairs or from supports",
@@ -266,11 +268,12 @@ class Model(Remade):
         for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
             warn_of_nodes_beside(one, name)
+            warn_of_numbers(one, matrix, name)
+            if not one.pairs or "all slave faces look away" in one.summary:
+                tell((f"zone {name!r}: " if name else "") + one.summary)
         for name, one in list(contacts.items())[:1]:  # zones are alike
             warn_of_rings(one, matrix, equations is not None, name)
             zone = f"zone {name!r}: " if name else ""
-            if not one.pairs or "all slave faces look away" in one.summary:
-                tell(zone + one.summary)
             if one.is_sector and equations is None:
                 tell(f"{zone}pairs of a Sector without equations, which hold its boundaries together: give "
                      "equations=sector_equations(coordinates, sector), or those of your own")
@@ -370,8 +373,9 @@ class Model(Remade):
                 words, told = message.removeprefix(f"case {c}: ") or words, True
             case = data if cases is None else data.of(c)
             result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
-            passed = self._penetration(case, result) if penetration and self.contact else None
-            results.append(self._of_case(result._replace(penetration=passed), case, gap))
+            results.append(self._of_case(result, case, gap))
+        if penetration and self.contact:
+            results = self._with_penetration(data, results, cases is None)
         return results[0] if cases is None else results
 
     def with_contact(self, result):
@@ -390,18 +394,27 @@ class Model(Remade):
         second = result.second and self._of_case(result.second, case, gap)
         return result._replace(contact=self._zones or self.contact, second=second, gaps=gaps, slip0=slip0)
 
-    def _penetration(self, case, result):
-        """What has passed through without a pair in a solution of a Case, of which it warns."""
-        if result.status != Status.SOLVED:
-            return None
-        u = np.zeros(self.host_size)
-        self._do("model_recover", 1, at(case.f), at(case.prescribed), at(result.d), at(u))
+    def _with_penetration(self, data, results, is_alone):
+        """Results with what has passed through without a pair in solutions, of which it warns."""
+        solved = [c for c, result in enumerate(results) if result.status == Status.SOLVED]
+        for begin in range(0, len(solved), _AT_ONCE):
+            each = solved[begin:begin + _AT_ONCE]
+            f, prescribed, gaps = (value if value is None else (value[None] if is_alone else value)[each]
+                                   for value in (data.f, data.prescribed, data.gap))
+            d, u = np.stack([results[c].d for c in each]), np.zeros((len(each), self.host_size))
+            self._do("model_recover", len(each), at(f), at(prescribed), at(d), at(u))
+            for c, own, gap in zip(each, u, gaps):
+                results[c] = results[c]._replace(penetration=self._penetration(own, gap))
+        return results
+
+    def _penetration(self, u, gap):
+        """What has passed through without a pair, of which it warns."""
         contact = self._zones or self.contact
         least = contact._least
         u = self._equations.extended(u, least) if self._equations else u
         # A node of a face without a pair may be held by the host, which has no rows for it.
         u = np.concatenate([u, np.zeros(max(0, least - u.size))])
-        found = contact._passed(u, case.gap - contact._paired_gaps)
+        found = contact._passed(u, gap - contact._paired_gaps)
         if found:
             tell(found.sentence)
         return found
@@ -503,9 +516,6 @@ class Model(Remade):
 
     def _case(self, f, gap, friction, slip0, prescribed, cases=None):
         f, prescribed = self._loads(f, prescribed, cases)
-        if gap is None and self.contact is not None:
-            for name, one in (self._zones.contacts if self._zones else {None: self.contact}).items():
-                warn_of_facets(one, name)
         if self._zones is not None:
             gap = self._zones.gaps() if gap is None else self._zones.joined("gap", gap)
             slip0 = self._zones.joined("slip0", slip0, self.dim - 1)
@@ -516,8 +526,12 @@ class Model(Remade):
                 self._zones.warn_of_ties(friction.law)
         elif gap is None and self.contact is not None:
             gap = self.contact.gaps
+        gap = per_pair("gap", gap, self.pairs, self.dim, cases)
+        if self.contact is not None and (gap == (self._zones or self.contact)._paired_gaps).all(axis=-1).any():
+            for name, one in (self._zones.contacts if self._zones else {None: self.contact}).items():
+                warn_of_facets(one, name)
         return Case(
-            f, prescribed, per_pair("gap", gap, self.pairs, self.dim, cases), friction.law,
+            f, prescribed, gap, friction.law,
             friction.numbers(self.pairs, self.dim, cases),
             components("slip0", slip0, self.pairs, self.dim, tangential=True, cases=cases,
                        scalar=True, optional=True),

@@ -411,6 +411,12 @@ class SurfacePairs(Remade):
         return np.asarray(dofs)[nodes] if dofs is not None else (each or self.dim) * nodes[:, None] + np.arange(self.dim)
 
     @property
+    def _numbers_every_node_alike(self):
+        """True if nodes have D degrees of freedom each, and no others."""
+        dofs, each = self._made_of[_NUMBERS]
+        return dofs is None and each in (0, None, self.dim)
+
+    @property
     def _least(self):
         """Entries of a displacement vector that has the nodes of faces, whose displacements are asked."""
         asked = self.penetration.__self__  # pair_meshes asks all faces that were given

@@ -55,6 +55,24 @@ def warn_of_nodes_beside(contact, name=None):
         tell((f"zone {name!r}: " if name else "") + sentence)
 
 
+def warn_of_numbers(contact, matrix, name=None):
+    """Warns of a K with the rows of nodes that turn as well, where the pairs have the numbers of nodes that do not, and K resists
+    a motion of all of these numbers along an axis, as that of no body."""
+    each = {2: 3, 3: 6}[contact.dim]
+    if not contact._numbers_every_node_alike or len(matrix) != each * contact.node_count:
+        return
+    dofs = contact._dofs_of(np.arange(contact.node_count))
+    for axis in dofs.T:
+        unit = np.zeros(len(matrix))
+        unit[axis] = 1.0
+        resists, has_terms = matrix.resisted(unit)
+        if 2 * np.count_nonzero(resists[dofs]) <= np.count_nonzero(has_terms[dofs]):
+            return
+    of = f"zone {name!r}: " if name else ""
+    tell(f"{of}K has {each} rows for each of {contact.node_count} nodes, and the degrees of freedom of the pairs are those of nodes "
+         f"that have {contact.dim}: give dofs_per_node={each} to pair_surfaces, or dofs")
+
+
 def warn_of_facets(contact, name=None):
     """Warns of facets that change the interference of a case, if its gaps are those of the pairing."""
     for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
