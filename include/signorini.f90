@@ -311,7 +311,7 @@ module signorini
     end type
 
     type, bind(C) :: signorini_surface_settings
-        integer(c_int32_t) :: struct_size = 160 + 10 * address_bytes
+        integer(c_int32_t) :: struct_size = 168 + 11 * address_bytes
         integer(c_int32_t) :: pairing = 0
         real(c_double) :: search_distance = 0
         integer(c_int32_t) :: index_base = 0
@@ -340,6 +340,8 @@ module signorini
         real(c_double) :: second_period(3) = 0
         integer(c_int32_t) :: keep_turns = 0
         integer(c_int32_t) :: reserved = 0
+        integer(c_int64_t) :: n_fixed = 0
+        type(c_ptr) :: fixed = c_null_ptr
     end type
 
     ! The arrays belong to the pairs; contact_surfaces has copies of those that hosts use most.

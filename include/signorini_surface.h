@@ -248,6 +248,13 @@ struct signorini_surface_settings {
      */
     int32_t keep_turns;
     int32_t reserved;                       /**< 0. */
+    /**
+     * Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
+     * supports hold both sides in one place: a slave node that they hold along its normal, beside a
+     * master that they hold too, then has no pair, as at rims. Its force would be any number.
+     */
+    int64_t n_fixed;
+    const int64_t *fixed; /**< These degrees of freedom, as for signorini_model_new_sparse. */
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

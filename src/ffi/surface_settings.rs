@@ -142,6 +142,12 @@ pub struct SignoriniSurfaceSettings {
     pub keep_turns: i32,
     /// 0.
     pub reserved: i32,
+    /// Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
+    /// supports hold both sides in one place: a slave node that they hold along its normal, beside a
+    /// master that they hold too, then has no pair, as at rims. Its force would be any number.
+    pub n_fixed: i64,
+    /// These degrees of freedom, as for signorini_model_new_sparse.
+    pub fixed: *const i64,
 }
 
 /// How the host numbers nodes and degrees of freedom.
@@ -209,6 +215,7 @@ impl SignoriniSurfaceSettings {
             clearance: given.clearance,
             tangent: Some(given.tangent).filter(|along| along.iter().any(|part| *part != 0.0)),
             keep_turns: given.keep_turns != 0,
+            supports: dofs.held(&given.fixed(at, base)?, (nodes, dim)),
         };
         let limits = SignoriniSettings {
             time_limit: given.time_limit,
@@ -218,6 +225,13 @@ impl SignoriniSurfaceSettings {
         };
         let limits = limits.parsed(at)?;
         Ok((settings, limits, Numbering { base, dofs }))
+    }
+
+    /// The degrees of freedom that supports hold.
+    fn fixed(&self, at: At<'_>, base: i64) -> Outcome<Vec<usize>> {
+        let count = at.field("n_fixed").size(self.n_fixed)?;
+        let fixed = at.field("fixed").required(self.fixed, count)?;
+        at.field("fixed").shifted(fixed, base)
     }
 
     /// The true shape of a side.

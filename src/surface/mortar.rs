@@ -86,7 +86,7 @@ pub(super) fn pairs<'a>(
         }
     }
     let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold(settings.rims, &mut rows, on, progress)?;
+    report.folded = rims::fold(settings, &mut rows, on, progress)?;
     let pair = |node, row: Row| {
         let gap = row.gap / row.area;
         // The mean over what the row covers, with the rows that it has taken in.

@@ -1,5 +1,7 @@
 //! Pairs from surfaces as arrays in the host's degrees of freedom.
 
+use std::collections::HashSet;
+
 use super::images::Images;
 use super::pairs::{SurfacePair, SurfacePairs, Weight, without_rounding};
 use crate::linalg::vector3::{self, Vector3, without};
@@ -17,6 +19,13 @@ impl NodeDofs {
     /// Those of a node, `dim` of them.
     pub fn of(&self, node: usize, dim: usize) -> impl Iterator<Item = usize> {
         (0..dim).map(move |axis| self.along(axis, node, dim))
+    }
+
+    /// Of so many nodes those with an axis whose degree of freedom is fixed, for each such axis.
+    pub fn held(&self, fixed: &[usize], (nodes, dim): (usize, usize)) -> Vec<(usize, usize)> {
+        let fixed: HashSet<&usize> = fixed.iter().collect();
+        let places = (0..nodes).flat_map(|node| (0..dim).map(move |axis| (node, axis)));
+        places.filter(|(node, axis)| fixed.contains(&self.along(*axis, *node, dim))).collect()
     }
 
     fn along(&self, axis: usize, node: usize, dim: usize) -> usize {

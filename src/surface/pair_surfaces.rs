@@ -75,6 +75,11 @@ fn pair_sides(
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
     let opposite = Some((&master, &on_master, wanted));
     let images = WithImages::new(settings, (&slave, &mut on), opposite, progress)?;
+    let mut settings = settings.clone();
+    if let Some(images) = &images {
+        settings.supports = images.with_images(settings.supports, slave.dim);
+    }
+    let settings = &settings;
     let sides = [slave, master];
     let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
     let mut found = search(sides.each_ref(), (&on, reach), settings, progress)?;

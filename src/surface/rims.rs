@@ -4,7 +4,7 @@
 //! and the row holds a node in the air by masters that are far away. Leaving the row out breaks the patch
 //! test. So `D_j d_j` is shared out to rows of nodes of the same faces: `Σ ψ_j = 1` stays, and with it the patch
 //! test. A node whose row has gone takes in none, so that no row goes further than one face; one with hardly any
-//! cover may go two.
+//! cover may go two. So does `D_j d_j` of a node that supports hold beside a master that they hold.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -13,7 +13,7 @@ use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
-use super::settings::Rims;
+use super::settings::{Rims, SurfaceSettings};
 use super::shape::MANY_FACES;
 use super::symmetry::OnPlanes;
 use crate::error::Error;
@@ -55,22 +55,14 @@ const AS_NEAR: f64 = 0.9;
 /// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs whose
 /// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others.
 pub(super) fn fold(
-    rims: Rims,
+    settings: &SurfaceSettings,
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
-    let (mut homes, mut little) = (HashMap::new(), Vec::new());
-    let least = least_covers(rims, rows, (slave, uncovered), progress)?;
-    for (&node, row) in rows.iter() {
-        progress.goes_on()?;
-        match least.get(&node).is_none_or(|least| row.cover() >= *least) {
-            true => drop(homes.insert(node, true)),
-            false => little.push((node, row.cover())),
-        }
-    }
-    little.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let (kept, little) = by_cover(settings, rows, (slave, uncovered), progress)?;
+    let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
     let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, progress)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
@@ -113,6 +105,27 @@ pub(super) fn fold(
         Ok(Fold { node, into: into[0].0, distance })
     };
     gone.into_iter().map(fold).collect()
+}
+
+/// The nodes with enough cover, and those with little, the most first. What supports hold on both sides is as without cover.
+fn by_cover(
+    settings: &SurfaceSettings,
+    rows: &BTreeMap<usize, Row>,
+    on: (&Side<'_>, &[usize]),
+    progress: &mut PairingProgress<'_, '_>,
+) -> Result<(Vec<usize>, Vec<Weight>), Error> {
+    let (mut enough, mut little) = (Vec::new(), Vec::new());
+    let least = least_covers(settings.rims, rows, on, progress)?;
+    for (&node, row) in rows {
+        progress.goes_on()?;
+        match least.get(&node).is_none_or(|least| row.cover() >= *least) {
+            true if row.is_between_supports(node, settings) => little.push((node, 0.0)),
+            true => enough.push(node),
+            false => little.push((node, row.cover())),
+        }
+    }
+    little.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Ok((enough, little))
 }
 
 /// The share of cover with which each node would keep its row, of those that have less than [`LEAST_COVER`].

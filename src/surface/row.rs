@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::control::Basis;
 use super::pairs::Weight;
+use super::settings::SurfaceSettings;
 use super::shape::{MOST_NODES, Values};
 use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector3::Vector3;
@@ -55,6 +56,13 @@ impl Row {
     /// The slave nodes with their weights.
     pub(super) fn slaves(&self) -> impl Iterator<Item = Weight> {
         self.weights.iter().copied().filter(|(node, _)| node & MASTER == 0)
+    }
+
+    /// True for the row of a node that supports hold along its normal, as they do a master that it names.
+    pub(super) fn is_between_supports(&self, node: usize, settings: &SurfaceSettings) -> bool {
+        let is_held = |node: usize| settings.is_supported(node, self.normal);
+        let masters = self.weights.iter().filter(|(node, _)| node & MASTER != 0);
+        is_held(node) && masters.into_iter().any(|(node, w)| *w != 0.0 && is_held(node & !MASTER))
     }
 
     /// Adds master nodes.

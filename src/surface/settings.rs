@@ -4,7 +4,8 @@ use super::exact_shape::Obstacle;
 use super::sector::Sector;
 use super::symmetry_plane::SymmetryPlane;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::unit;
+use crate::linalg::tolerances::NEGLIGIBLE;
+use crate::linalg::vector3::{Vector3, unit};
 
 /// How the rows are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,6 +85,10 @@ pub struct SurfaceSettings {
     /// Pairs see the neighbours, and are those of the whole body: of two nodes that are images of each other the first has the
     /// pair, and the host's displacements obey `u = Q u'`.
     pub sector: Option<Sector>,
+    /// Nodes of both sides with an axis along which supports hold them, in any order. The row of a slave node that is held along
+    /// its normal, and names a master that is held along it too, goes to a node of its own faces, as at rims: all that is left of
+    /// such a row are small weights of masters beside the support, which forces without end would pull at. Of dual mortar.
+    pub supports: Vec<(usize, usize)>,
     /// Normals of the pairs.
     pub normals: Normals,
     /// The treatment of nodes with little cover.
@@ -168,7 +173,16 @@ impl SurfaceSettings {
             return refuse(&format!("tangent: {x}, {y}, {z} is no direction"));
         }
         let sector = self.sector.map(|sector| sector.checked(dim)).transpose()?;
-        Ok(SurfaceSettings { sector, symmetry, ..self.clone() })
+        let mut supports = self.supports.clone();
+        supports.sort_unstable();
+        Ok(SurfaceSettings { sector, symmetry, supports, ..self.clone() })
+    }
+
+    /// True for a node that supports hold along a direction, of any length.
+    pub(super) fn is_supported(&self, node: usize, along: Vector3) -> bool {
+        let is_free = |axis: usize| self.supports.binary_search(&(node, axis)).is_err();
+        let left = Vector3::from_fn(|axis, _| if is_free(axis) { along[axis] } else { 0.0 });
+        left.norm() <= NEGLIGIBLE * along.norm()
     }
 
     /// The planes of symmetry. The axis of bodies of revolution is none of them: it need not be named.

@@ -93,6 +93,20 @@ impl WithImages {
         [self.slave.on(slave), master]
     }
 
+    /// Supports of nodes along axes, ascending, with those of images of nodes that are held along all axes behind.
+    pub(super) fn with_images(
+        &self,
+        mut supports: Vec<(usize, usize)>,
+        dim: usize,
+    ) -> Vec<(usize, usize)> {
+        let images = &self.numbering.images;
+        let holds = |node: usize, axis: usize| supports.binary_search(&(node, axis)).is_ok();
+        let is_held = |image: &usize| (0..dim).all(|axis| holds(images.at(*image).1, axis));
+        let held: Vec<usize> = images.numbers().filter(is_held).collect();
+        supports.extend(held.into_iter().flat_map(|image| (0..dim).map(move |axis| (image, axis))));
+        supports
+    }
+
     /// The pairs of nodes that the model has, among those of sides with images.
     ///
     /// # Errors

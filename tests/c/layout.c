@@ -226,7 +226,7 @@ FIELD(signorini_operator, unknowns, int64_t, 56);
 FIELD(signorini_operator, place, int64_t *, 64);
 FIELD(signorini_operator, precondition, signorini_precondition_fn, 72);
 FIELD(signorini_operator, accuracy, double, 80);
-SIZE(signorini_surface_settings, 240);
+SIZE(signorini_surface_settings, 256);
 FIELD(signorini_surface_settings, struct_size, uint32_t, 0);
 FIELD(signorini_surface_settings, pairing, int32_t, 4);
 FIELD(signorini_surface_settings, search_distance, double, 8);
@@ -256,6 +256,8 @@ FIELD(signorini_surface_settings, period, double[3], 184);
 FIELD(signorini_surface_settings, second_period, double[3], 208);
 FIELD(signorini_surface_settings, keep_turns, int32_t, 232);
 FIELD(signorini_surface_settings, reserved, int32_t, 236);
+FIELD(signorini_surface_settings, n_fixed, int64_t, 240);
+FIELD(signorini_surface_settings, fixed, const int64_t *, 248);
 
 SIZE(signorini_surface_data, 240);
 FIELD(signorini_surface_data, struct_size, uint32_t, 0);

@@ -156,6 +156,35 @@ class Mistakes(unittest.TestCase):
             with self.assertWarnsRegex(UserWarning, "zone 'cut': no pairs: .*larger search distance"):
                 Model.from_surfaces((np.ones(16), np.arange(16), np.arange(17)), zones)
 
+    def test_supports_that_hold_both_sides(self):
+        """Lines of 3 and 2 faces with both first nodes fixed: what is left of the row between the supports is told, unless that
+        node is given away, or the fixed ones are held along the lines alone, or the meshes match."""
+        def lines(count):
+            x = np.r_[np.linspace(0, 1, 3), np.linspace(0, 1, count + 1)]
+            at, springs = np.c_[x, 0 * x], (np.ones(2 * len(x)), np.arange(2 * len(x)), np.arange(2 * len(x) + 1))
+            return at, [[0, 1], [1, 2]], [[4 + k, 3 + k] for k in range(count)], springs
+        at, slave, master, springs = lines(3)
+        both = [0, 1, 6, 7]
+        for fixed, given, is_told in (both, (), True), ([1, 7], (), True), (both, both, False), ([0, 6], (), False), ([0, 1], (), False):
+            contact = signorini.pair_surfaces(at, slave, master, fixed=given)
+            self.assertEqual(0 in contact.nodes, not len(given))
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                Model.from_surfaces(springs, {"clamp": contact}, fixed=fixed)
+            told = [str(one.message) for one in told if "may be any number" in str(one.message)]
+            self.assertEqual(len(told), is_told)
+            self.assertTrue(all(one.startswith("zone 'clamp': supports hold slave node 0 along its normal") for one in told))
+        at, slave, master, springs = lines(2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            Model.from_surfaces(springs, signorini.pair_surfaces(at, slave, master), fixed=[0, 1, 6, 7])
+        upper, lower = (at[:3], [("line", slave)]), (lines(3)[0][3:], [("line", [[1, 0], [2, 1], [3, 2]])])
+        _, _, _, springs = lines(3)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            model = Model.from_meshes(springs, upper, lower, slave_faces=slave, master_faces=[[1, 0], [2, 1], [3, 2]], fixed=both)
+        self.assertEqual(model.contact.nodes.tolist(), [1, 2])
+
     def test_numbers_of_nodes_that_do_not_turn(self):
         """Two springs of nodes with a rotation each: the numbers of nodes without one take rotations for displacements."""
         def spring(k):

@@ -31,6 +31,7 @@ mod rows;
 mod sectors;
 mod small_patches;
 mod steps;
+mod supports;
 mod symmetry;
 mod tangents;
 mod ties;

@@ -20,7 +20,7 @@ FACES = {2: ("line", "line3"), 3: ("triangle", "triangle6", "quad", "quad8", "qu
 SAME_AREA = 1 - 1e-6
 
 
-def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing):
+def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, fixed=(), **pairing):
     """Pairs the faces of two meshes that may touch: SurfacePairs.
 
     slave, master: a mesh each, (coordinates, cells) with cells as for write_mesh, or an object with
@@ -46,6 +46,7 @@ def pair_meshes(slave, master, *, slave_faces=None, master_faces=None, **pairing
         if slave_faces is None:
             raise ValueError("master is an obstacle, which any face may lie opposite to: give slave_faces")
         return pair_obstacle(first.coordinates, first.faces("slave_faces", slave_faces), master, **pairing)
+    pairing = {**pairing, "fixed": fixed}
     faces = first.faces("slave_faces", slave_faces)
     if master is slave:
         if slave_faces is None or master_faces is None:

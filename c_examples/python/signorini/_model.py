@@ -22,7 +22,7 @@ from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, 
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import (warn_of_facets, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
-                        warn_of_rings)
+                        warn_of_rings, warn_of_supports)
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
 
@@ -267,6 +267,7 @@ class Model(Remade):
         contacts = zones.contacts if zones else {None: contact}
         for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
+            warn_of_supports(one, fixed, name)
             warn_of_nodes_beside(one, name)
             warn_of_numbers(one, matrix, name)
             if not one.pairs or "all slave faces look away" in one.summary:
@@ -299,7 +300,7 @@ class Model(Remade):
         settings: a dict of those of sparse, such as {"full_space": True}.
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
-        contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, **pairing)
+        contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, fixed=fixed, **pairing)
         parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
         check_owners(parts, triangle, slave, master, pairing)
         K = side_by_side(parts) if len(parts) == 2 else K

@@ -155,6 +155,7 @@ class SurfaceSettings(ctypes.Structure):
         ("close_within", real), ("clearance", real), ("symmetry_normals", address), ("sectors", i64),
         ("sector_point", address), ("sector_axis", address), ("tangent", real * 3),
         ("period", real * 3), ("second_period", real * 3), ("keep_turns", i32), ("reserved", i32),
+        ("n_fixed", i64), ("fixed", address),
     ]
 
 

@@ -14,6 +14,7 @@ from ._equations import Equations
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._mesh import Cells, points
 from ._sector import Period, checked, ways_of
+from ._sparse import supports
 from ._structures import (ContactFields, Faces, NodalField, Pairs, PenetrationData, ResultantSums, RigidObstacle,
                           SurfaceData, SurfaceSettings, Zone, address, i32, i64, real, sized)
 
@@ -92,7 +93,7 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
                   dofs=None, dofs_per_node=0, symmetry=(), normals="averaged", rims="fold",
                   axisymmetric=False, slave_shape=None, master_shape=None, fitted=False,
                   close_within=0.0, clearance=0.0, time_limit=0.0, progress=None, sector=None, tangent=None,
-                  keep_turns=False):
+                  keep_turns=False, fixed=()):
     """Pairs two surfaces of a mesh: SurfacePairs. Surfaces that never meet give no pairs.
 
     coordinates: of all nodes, (n, D).  slave, master: nodes of each face, (F, k), or a list of
@@ -126,6 +127,8 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     tangent: in 3D the direction of first tangents, (3,), as nearly as the tangent plane of each pair allows, from which the
     angle of orthotropic friction counts; None: the axis most across the normals of all pairs, of equal ones the first.
     keep_turns: for sides that are tied: rows keep rigid turns of both, also where facets of curved sides do not fit.
+    fixed: the fixed degrees of freedom of the model, if supports hold both sides in one place: a slave node that they hold along
+    its normal, beside a master that they hold too, then has no pair, as at rims. Its force would be any number.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
     SignoriniError.
     """
@@ -133,7 +136,7 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     return SurfacePairs("surface_pair", coordinates, slave, master, pairing,
                         search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric,
                         (slave_shape, master_shape, fitted, close_within, clearance), sector, tangent, keep_turns,
-                        time_limit, progress)
+                        fixed, time_limit, progress)
 
 
 def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=None,
@@ -151,7 +154,7 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     return SurfacePairs("surface_pair_obstacle", coordinates, slave, rigid,
                         Pairing.DUAL_MORTAR, search_distance, dofs, dofs_per_node, symmetry, normals,
                         rims, axisymmetric, (slave_shape, master_shape, fitted, close_within, clearance),
-                        sector, tangent, False, time_limit, progress)
+                        sector, tangent, False, (), time_limit, progress)
 
 
 # Of the making of SurfacePairs: what belongs to one process.
@@ -177,13 +180,13 @@ class SurfacePairs(Remade):
 
     def __init__(self, make, coordinates, slave, other, pairing, search_distance, dofs,
                  dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector, tangent, keep_turns,
-                 time_limit, progress):
+                 fixed, time_limit, progress):
         self._functions, self._coordinates = library(), points(coordinates).copy()
         self.node_count, self.dim = self._coordinates.shape
         # Without what watches the pairing: neither time_limit nor progress.
         self._made_of = (make, self._coordinates, slave, other, *copy.deepcopy((
             pairing, search_distance, dofs, dofs_per_node, symmetry, normals, rims, axisymmetric, gaps, sector,
-            tangent, keep_turns)))
+            tangent, keep_turns, fixed)))
         self.slave_faces = self.drawn_faces = slave.lists
         self.coordinates = self._coordinates
         settings = sized(
@@ -215,6 +218,8 @@ class SurfacePairs(Remade):
             point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
+        fixed = indices(supports(fixed))
+        settings.n_fixed, settings.fixed = len(fixed), at(fixed)
         if tangent is not None:
             settings.tangent[:] = fit("tangent", tangent, [(3,)], "a direction, shape (3,)")
         if dofs is not None:

@@ -9,6 +9,7 @@ from ._equations import ORTHOGONAL
 from ._text import tell
 
 AXES = "xyz"
+_ALONG = 1e-9  # what is left of a unit normal beside axes
 _NEAR = 1e-6  # of the size of the mesh: places are the same
 
 
@@ -46,6 +47,31 @@ def warn_of_planes(contact, fixed, name=None):
             plane, are = "planes", "they are planes"
         tell(f"{of}supports hold both sides across the {plane} {across}: if {are} of symmetry, give symmetry=[{named}] to "
              f"pair_surfaces")
+
+
+def warn_of_supports(contact, fixed, name=None):
+    """Warns of slave nodes with a pair, and a master of its row, that supports hold along its normal, where others of the row are free."""
+    fixed = np.asarray(fixed)
+    if not len(fixed) or not contact.pairs:
+        return
+    held = np.isin(contact._dofs_of(contact.nodes), fixed)
+
+    def along(normal, free):
+        return np.linalg.norm(np.where(free, normal, 0.0), axis=-1) <= _ALONG
+    for pair in np.flatnonzero(along(contact.normals, ~held)):
+        normal, (dofs, weights) = contact.normals[pair], contact.rows[pair]
+        if dofs.ndim == 1:  # by degree of freedom: those along the normal
+            parts = weights @ normal
+            is_held = np.isin(dofs, fixed)
+            is_master = parts * (weights @ np.ones(contact.dim)) < 0
+        else:
+            parts, is_held, is_master = weights, along(normal, ~np.isin(dofs, fixed)), weights < 0
+        if (is_held & is_master).any() and (parts[~is_held] != 0).any():
+            of = f"zone {name!r}: " if name else ""
+            tell(f"{of}supports hold slave node {contact.nodes[pair]} along its normal, and the master beside it: all that is left of "
+                 "this pair are masters beside the support, so that its force may be any number: give fixed to pair_surfaces, or pair "
+                 "by node_to_surface")
+            return
 
 
 def warn_of_nodes_beside(contact, name=None):
