@@ -47,8 +47,8 @@ extern "C" {
 
 /* Normals of pairs from surfaces. */
 /**
- * The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar: that
- * of the faces in contact where they cancel.
+ * The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar:
+ * without faces around a sharp edge that lie over nothing.
  */
 #define SIGNORINI_NORMALS_AVERAGED 0
 /**
@@ -280,7 +280,8 @@ typedef struct signorini_surface_pairs signorini_surface_pairs;
  * @param dim          space dimension, 2 or 3
  * @param nodes        number of nodes of your mesh
  * @param coordinates  dim for each node, of all nodes; length
- * @param slave        the side whose nodes become slaves; better the softer or finer one
+ * @param slave        the side whose nodes become slaves, each with a pressure; better the coarser
+ *                     one: pressures of a finer one follow the other side's facets
  * @param master       the other side; its nodes must not be on the slave side
  * @param settings     NULL: the defaults
  * @param contact      out: the pairs; NULL unless 0 is returned

@@ -72,7 +72,8 @@ unsafe impl Sync for SignoriniSurfacePairs {}
 /// @param dim          space dimension, 2 or 3
 /// @param nodes        number of nodes of your mesh
 /// @param coordinates  dim for each node, of all nodes; length
-/// @param slave        the side whose nodes become slaves; better the softer or finer one
+/// @param slave        the side whose nodes become slaves, each with a pressure; better the coarser
+///                     one: pressures of a finer one follow the other side's facets
 /// @param master       the other side; its nodes must not be on the slave side
 /// @param settings     NULL: the defaults
 /// @param contact      out: the pairs; NULL unless 0 is returned

@@ -19,8 +19,8 @@ pub const SIGNORINI_PAIRING_DUAL_MORTAR: i32 = 0;
 /// the pressure between meshes that do not match is wrong by some percent.
 pub const SIGNORINI_PAIRING_NODE_TO_SURFACE: i32 = 1;
 
-/// The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar: that
-/// of the faces in contact where they cancel.
+/// The default: the mean of the unit normals of all slave faces at the slave node. Dual mortar:
+/// without faces around a sharp edge that lie over nothing.
 pub const SIGNORINI_NORMALS_AVERAGED: i32 = 0;
 /// Normals of the faces in contact. Dual mortar: the mean at the slave node over the faces that lie
 /// over the master, weighted by the node's area there; around a sharp edge other faces do not turn

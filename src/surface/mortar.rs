@@ -76,7 +76,14 @@ pub(super) fn pairs<'a>(
     candidates.look_beyond(sides, &mut report, progress)?;
     let mut rows = rows(slave, faces, (&mut report, progress))?;
     if settings.normals == Normals::Averaged {
-        let averaged = slave.node_normals(planes, progress)?;
+        // Around a sharp edge faces that lie over nothing have none of the contact.
+        let looks_elsewhere =
+            |row: &Row, normal: &Vector3| row.normal.dot(normal) <= SAME_WAY * row.normal.norm();
+        let counts = |at: usize, node: usize, normal: &Vector3| {
+            report.uncovered_faces.binary_search(&at).is_err()
+                || !rows.get(&node).is_some_and(|row| looks_elsewhere(row, normal))
+        };
+        let averaged = slave.node_normals(planes, counts, progress)?;
         for (node, row) in &mut rows {
             progress.goes_on()?;
             let mean = averaged[node];

@@ -119,7 +119,7 @@ pub(super) fn pairs(
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    let averaged = slave.node_normals(planes, progress)?;
+    let averaged = slave.node_normals(planes, |_, _, _| true, progress)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
         progress.goes_on()?;

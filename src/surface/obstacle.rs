@@ -114,7 +114,9 @@ fn facing(
                 index(node)
             ));
         }
-        facing.insert(node, (away, normal.unwrap_or_default()));
+        let normal = normal.unwrap_or_default();
+        // On an axis a pair is along it, and so is its gap.
+        facing.insert(node, (away / normal.dot(&on.turned(node, normal)), normal));
     }
     let looking_away = looking_away(side, obstacle);
     let [search_distance, overlap_distance] = [reach; 2];

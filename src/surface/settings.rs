@@ -23,7 +23,7 @@ pub enum Pairing {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normals {
     /// The mean of the unit normals of all slave faces at the slave node: it varies smoothly over meshes of
-    /// curved surfaces. By dual mortar that of the faces in contact where they cancel.
+    /// curved surfaces. By dual mortar without faces around a sharp edge that lie over nothing.
     #[default]
     Averaged,
     /// The normal of the faces in contact. By dual mortar the mean of the unit normals at the node of the slave faces that

@@ -214,20 +214,22 @@ fn nearest_beside(
 
 impl Side<'_> {
     /// Averaged unit normals of the nodes of [`Self::all_nodes`], by node, in the planes of symmetry on which they stand; zero
-    /// where they cancel.
+    /// where they cancel. Of the faces at a node those that `counts` says no of, by face, node and normal, are left out.
     ///
     /// # Errors
     /// What stops the pairing.
     pub(super) fn node_normals(
         &self,
         planes: &OnPlanes,
+        counts: impl Fn(usize, usize, &Vector3) -> bool,
         progress: &mut PairingProgress<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
         let mut normals: HashMap<usize, Vector3> = HashMap::new();
         for at in 0..self.count() {
             progress.goes_on()?;
             let face = self.face(at);
-            for (&node, normal) in face.nodes.iter().zip(at_nodes(&face)) {
+            let at_nodes = face.nodes.iter().zip(at_nodes(&face));
+            for (&node, normal) in at_nodes.filter(|(node, normal)| counts(at, **node, normal)) {
                 *normals.entry(node).or_default() += normal;
             }
         }

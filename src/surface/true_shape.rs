@@ -8,7 +8,7 @@
 use super::curved_patch::Patch;
 use super::exact_shape::ExactShape;
 use super::face::Face;
-use super::fitted_normals::{Fitted, fitted};
+use super::fitted_normals::{Fitted, SMOOTH, fitted};
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
@@ -120,8 +120,10 @@ impl<'a> TrueSides<'a> {
     }
 }
 
-/// Refuses a shape that is further from a node of its side than the size of the face.
+/// Refuses a shape of which a face is no facet, as that of a chamfer at the end of a bore: one that looks elsewhere, or that ends
+/// further away than a face leads which leaves the shape at a quarter of the angle of a sharp edge.
 fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
+    let far = ((1.0 - SMOOTH) / 8.0).sqrt();
     for at in 0..side.count() {
         let face = side.face(at);
         for &node in face.nodes {
@@ -133,12 +135,22 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
                     "{place} stands on its axis or in its centre: leave that face out of the side"
                 ));
             }
-            if distance.abs() > face.size() {
+            if distance.abs() > far * face.size() {
+                let part = distance.abs() / face.size();
                 return Err(format!(
-                    "{place} is further away from it than the face is long: leave that face out of the side, or \
-                     look at the shape's place and unit of length"
+                    "{place} is {part:.2} of the face's size away from it: leave that face out of the side, or look at the shape's \
+                     place and unit of length"
                 ));
             }
+        }
+        let (middle, own) = (face.position(face.kind.centre()), face.middle_normal());
+        if let (_, Some(normal)) = shape.distance(middle)
+            && normal.dot(&own).abs() < SMOOTH
+        {
+            return Err(format!(
+                "face {} is turned from it by more than 35 degrees: leave that face out of the side, or look at the shape's place",
+                index(at)
+            ));
         }
     }
     Ok(())

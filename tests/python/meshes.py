@@ -3,6 +3,7 @@
     python3 tests/python/meshes.py
 """
 
+import itertools
 import os
 import sys
 import unittest
@@ -194,6 +195,30 @@ class Pairs(unittest.TestCase):
             self.assertEqual(contact.report.slave_faces, faces)
             self.same(contact)
 
+    def test_bricks_that_are_wedges(self):
+        """A brick two edges of which are one has a skin of triangles and quadrilaterals, seen from outside, with mid nodes or without; so
+        has a quadrilateral that is a triangle."""
+        at = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1.0]])
+        brick = [0, 1, 2, 0, 3, 4, 5, 3]
+        edges = {tuple(sorted(pair)): None for pair in itertools.combinations(range(6), 2)}
+        mids = {pair: 6 + k for k, pair in enumerate(edges)}
+        middle = np.vstack([at, [at[list(pair)].mean(axis=0) for pair in mids]])
+        pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+        ends = [tuple(sorted((brick[a], brick[b]))) for a, b in pairs]
+        quadratic = brick + [mids.get(pair, pair[0]) for pair in ends]
+        for nodes, cells in (at, {"hexahedron": [brick]}), (middle, {"hexahedron20": [quadratic]}):
+            faces = signorini._meshes._Mesh("mesh", (nodes, cells)).skin
+            self.assertEqual(sorted(map(len, faces)), [3, 3, 4, 4, 4] if len(nodes) == 6 else [6, 6, 8, 8, 8])
+            for face in faces:
+                count = 3 if len(face) in (3, 6) else 4
+                corners = nodes[face[:count]]
+                outward = np.cross(corners[2] - corners[0], corners[-1] - corners[1] if count == 4 else corners[2] - corners[1])
+                self.assertGreater(outward @ (corners.mean(axis=0) - at.mean(axis=0)), 0)
+                for k, mid in enumerate(face[count:]):
+                    np.testing.assert_allclose(nodes[mid], (corners[k] + corners[(k + 1) % count]) / 2)
+        square = np.array([[0, 0], [1, 0], [0, 1.0]])
+        self.assertEqual(len(signorini._meshes._Mesh("mesh", (square, {"quad": [[0, 1, 2, 2]]})).skin), 3)
+
     def test_cells_and_shapes_that_do_not_fit_are_named(self):
         at, bricks = self.upper[0], self.upper[1]["hexahedron"]
         for cells, words in (({"hexahedron": bricks, "wedge18": [range(18)]}, "slave: there is no type of cells 'wedge18'; "
@@ -203,9 +228,9 @@ class Pairs(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, words):
                 signorini.pair_meshes((at, cells), self.lower)
         floor = signorini.Plane(at.min(axis=0), [0, 0, -1])
-        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the slave: node .*: give slave_faces"):
+        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the slave: (node|face) .*: give slave_faces"):
             signorini.pair_meshes(self.upper, self.lower, slave_shape=floor)
-        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the master: node .*: give master_faces"):
+        with self.assertRaisesRegex(signorini.SignoriniError, "shape of the master: (node|face) .*: give master_faces"):
             signorini.pair_meshes(self.upper, self.lower, master_shape=floor)
 
     def test_a_plane_mesh_with_three_coordinates(self):

@@ -159,7 +159,9 @@ class Pairs(unittest.TestCase):
         nodes = np.array([[0, 1.1], [0, 0.1], [1, 0.1], [1.2, 0.1], [-1, 0], [1.02, 0]])
         sides, floor = [[0, 1], [1, 2], [2, 3]], [[5, 4]]
         for pairing in signorini.Pairing:
-            for normals, normal in (("averaged", [-np.sqrt(0.5)] * 2), (signorini.Normals.FACES, [0, -1])):
+            # Against surfaces the side has its say.
+            averaged = [0, -1] if pairing == signorini.Pairing.DUAL_MORTAR else [-np.sqrt(0.5)] * 2
+            for normals, normal in (("averaged", averaged), (signorini.Normals.FACES, [0, -1])):
                 contact = signorini.pair_surfaces(nodes, sides, floor, pairing=pairing, normals=normals,
                                                   search_distance=0.5)
                 np.testing.assert_allclose(contact.normals[0], normal, atol=1e-15)
@@ -320,6 +322,26 @@ class Blocks(unittest.TestCase):
             self.assertTrue((found["types"] == 12).all())
             with self.assertRaisesRegex(ValueError, "displacements of all degrees"):
                 contact.write(path, {"hexahedron": blocks.bricks}, result, u[:10])
+
+    def test_slips_beyond_a_face(self):
+        """Springs of 1 let a line on another slip by its loads: by more than a face of length 1 is told, on a plane it is not."""
+        at = np.array([[0, 0], [1, 0], [2, 0], [0, 0], [1, 0], [2, 0.0]])
+        springs, load = (np.ones(12), np.arange(12), np.arange(13)), np.zeros((3, 2))
+        load[:, 1] = -1
+        lines = signorini.pair_surfaces(at, [[0, 1], [1, 2]], [[5, 4], [4, 3]])
+        plane = signorini.pair_obstacle(at, [[0, 1], [1, 2]], signorini.Plane((0, 0), (0, 1)))
+        for push, contact, is_told in (1.1, lines, True), (0.9, lines, False), (5.0, plane, False):
+            for named in contact, {"line": contact}:
+                load[:, 0] = push
+                model = signorini.Model.from_surfaces(springs, named)
+                with warnings.catch_warnings(record=True) as told:
+                    warnings.simplefilter("always")
+                    result = model.solve(np.r_[load.ravel(), np.zeros(6)], mu=0.0)
+                np.testing.assert_allclose(result.d[:, 1], np.full(3, result.d[0, 1]), atol=1e-12)
+                self.assertAlmostEqual(abs(result.d[0, 1]), push)
+                of = "zone 'line': " if isinstance(named, dict) else ""
+                self.assertEqual([str(one.message).startswith(f"{of}3 pairs slip by more than their faces are long, that of slave node ")
+                                  for one in told], [True] * is_told)
 
     def test_facets_of_a_press_fit(self):
         """Facets of 40 and 24 sides take more than an interference of 1e-3 away: a case is warned of, but one with gaps of its own."""

@@ -460,9 +460,9 @@ fn shapes_that_do_not_fit_are_refused() {
         ..Default::default()
     };
     let far = Obstacle::Plane { point: [0.0, 0.0, 5.0], outward: [0.0, 0.0, 1.0] };
-    let says =
-        "shape of the slave: node 0 of face 0 is further away from it than the face is long: ";
-    assert!(refused(&of_slave(far)).starts_with(says));
+    let says = "shape of the slave: node 0 of face 0 is ";
+    let refusal = refused(&of_slave(far));
+    assert!(refusal.starts_with(says) && refusal.contains(" of the face's size away from it: "));
     let flat = Obstacle::Cylinder { point: [0.0; 3], axis: [0.0; 3], radius: 1.0, hollow: false };
     assert_eq!(refused(&of_slave(flat)), "shape of the slave: its axis is zero or not finite");
     let thick =
@@ -478,6 +478,51 @@ fn shapes_that_do_not_fit_are_refused() {
     ] {
         let settings = SurfaceSettings { close_within, clearance, ..Default::default() };
         assert_eq!(refused(&settings), says);
+    }
+}
+
+/// A bore with a chamfer at its end, whose nodes all stand within a face of the bore: the chamfer is refused as a part of it, by its turn if it
+/// is steep, and by the distance of its outer nodes if it is a lead-in of 10 degrees. Facets as coarse as a hexagon are none.
+#[test]
+fn a_chamfer_is_no_facet_of_its_bore() {
+    let bore =
+        Obstacle::Cylinder { point: [0.0; 3], axis: [0.0, 0.0, 1.0], radius: 1.0, hollow: true };
+    let settings = SurfaceSettings {
+        shapes: [TrueShape::Exact(bore), TrueShape::Facets],
+        ..Default::default()
+    };
+    let around = |count: usize, [from, to]: [[f64; 2]; 2], turned: bool| {
+        let ring = |[r, z]: [f64; 2]| {
+            (0..count).map(move |k| {
+                let (s, c) = (TAU * k as f64 / count as f64).sin_cos();
+                [r * c, r * s, z]
+            })
+        };
+        let next = |k: usize| (k + 1) % count;
+        let face = |k: usize| vec![k, count + k, count + next(k), next(k)];
+        let sheet = Sheet {
+            nodes: ring(from).chain(ring(to)).collect(),
+            faces: (0..count).map(face).collect(),
+        };
+        if turned { sheet.turned() } else { sheet }
+    };
+    let refused = |count: usize, end: [f64; 2]| {
+        let (slave, pin) = (
+            around(count, [[1.0, 0.0], end], false),
+            around(count, [[1.0, -1.0], [1.0, 2.0]], true),
+        );
+        TwoSheets::new(3, slave, pin).pair(&settings).err().map(|error| error.to_string())
+    };
+    for count in [6, 12, 24] {
+        assert_eq!(refused(count, [1.0, 1.0]), None, "{count}");
+        let degrees = |angle: f64, length: f64| {
+            let (s, c) = angle.to_radians().sin_cos();
+            [1.0 + length * s, length * c]
+        };
+        let steep = refused(count, degrees(60.0, 0.02)).unwrap();
+        assert!(steep.contains("is turned from it by more than 35 degrees"), "{count}: {steep}");
+        let lead_in = refused(count, degrees(12.0, 2.0)).unwrap();
+        assert!(lead_in.contains("of the face's size away from it"), "{count}: {lead_in}");
     }
 }
 

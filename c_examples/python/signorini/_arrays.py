@@ -191,6 +191,10 @@ def number(name, value):
 
 
 def _array(name, values):
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked numbers: fill them, {name}.filled(number), or leave them out")
+    if isinstance(values, (set, frozenset)):
+        raise TypeError(f"{name} is a set, which has no order: give sorted({name})")
     try:
         return np.asarray(values)
     except ValueError as error:

@@ -89,7 +89,7 @@ def _covered(coordinates, slave, master, pairing):
     through them, as all were given."""
     whole = pair_surfaces(coordinates, slave, master, **pairing)
     uncovered = set(whole.uncovered.tolist())
-    if len(uncovered) in (0, len(slave)):
+    if len(uncovered) in (0, len(slave)) or pairing.get("pairing", "dual_mortar") == "dual_mortar":
         return whole
     normals = [_normal(coordinates[face[:corners(face, whole.dim)]]) for face in slave]
     around = {}

@@ -22,7 +22,7 @@ from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, 
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
 from ._symmetry import (warn_of_facets, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
-                        warn_of_rings, warn_of_supports)
+                        warn_of_rings, warn_of_slips, warn_of_supports)
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
 
@@ -375,6 +375,7 @@ class Model(Remade):
             case = data if cases is None else data.of(c)
             result = output.result(c, code, words, lambda d, case=case: self.certify_case(case, d, tolerance))
             results.append(self._of_case(result, case, gap))
+        self._warn_of_slips(results)
         if penetration and self.contact:
             results = self._with_penetration(data, results, cases is None)
         return results[0] if cases is None else results
@@ -394,6 +395,15 @@ class Model(Remade):
         slip0 = None if case.slip0 is None else case.slip0.reshape(self.pairs, self.dim - 1).copy()
         second = result.second and self._of_case(result.second, case, gap)
         return result._replace(contact=self._zones or self.contact, second=second, gaps=gaps, slip0=slip0)
+
+    def _warn_of_slips(self, results):
+        """Warns of pairs that slip by more than their face in one of the solutions."""
+        contacts = self._zones.contacts if self._zones else {None: self.contact} if self.contact else {}
+        solved = [result for result in results if result.status == Status.SOLVED]
+        for name, contact in contacts.items():
+            place = self._zones.places[name] if self._zones else slice(None)
+            for result in solved:
+                warn_of_slips(contact, result.d[place], result.state[place], name)
 
     def _with_penetration(self, data, results, is_alone):
         """Results with what has passed through without a pair in solutions, of which it warns."""

@@ -74,7 +74,8 @@ def turned(face, dim):
 
 
 def _faces(name, cell):
-    """Nodes of each face of a cell: corners, then mid nodes, then the centre."""
+    """Nodes of each face of a cell: corners, then mid nodes, then the centre. Of cells with corners that are one node, as bricks that are
+    wedges, faces have each node once, and such as have become a line or a point are left out."""
     count, edges, faces = _SHAPES[name]
     mids = {}
     if len(cell) >= count + len(edges):
@@ -85,7 +86,17 @@ def _faces(name, cell):
         nodes += [mids[frozenset(edge)] for edge in around if mids]
         if name == "hexahedron27":
             nodes.append(cell[_CENTRES + place])
-        yield [int(node) for node in nodes]
+        yield from _distinct([int(node) for node in nodes], len(face))
+
+
+def _distinct(nodes, count):
+    """The nodes of a face with so many corners, with each corner once and the mid nodes of edges that are left; none if it has no area."""
+    ring, mids = nodes[:count], nodes[count:2 * count]
+    kept = [k for k, node in enumerate(ring) if node != ring[(k + 1) % count]]
+    if len(kept) == count:
+        return [nodes]
+    own = [ring[k] for k in kept] + [mids[k] for k in kept if mids]
+    return [own] if len(kept) == 3 and len(set(own)) == len(own) else []
 
 
 def _outward(face, cell, coordinates):

@@ -2,6 +2,7 @@
 
 import copy
 import ctypes
+import functools
 from collections import namedtuple
 from types import SimpleNamespace
 
@@ -219,7 +220,7 @@ class SurfacePairs(Remade):
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
         fixed = indices(supports(fixed))
-        settings.n_fixed, settings.fixed = len(fixed), at(fixed)
+        settings.n_fixed, settings.fixed = len(fixed), at(fixed) if len(fixed) else None
         if tangent is not None:
             settings.tangent[:] = fit("tangent", tangent, [(3,)], "a direction, shape (3,)")
         if dofs is not None:
@@ -414,6 +415,24 @@ class SurfacePairs(Remade):
         """Degrees of freedom of nodes, (k, D)."""
         dofs, each = self._made_of[_NUMBERS]
         return np.asarray(dofs)[nodes] if dofs is not None else (each or self.dim) * nodes[:, None] + np.arange(self.dim)
+
+    @functools.cached_property
+    def face_lengths(self):
+        """The length of the longest slave face at each node, between its nodes; 0 of others, (n,)."""
+        lengths, kinds = np.zeros(self.node_count), {}
+        for face in self.slave_faces:
+            kinds.setdefault(len(face), []).append(face)
+        for faces in map(np.array, kinds.values()):
+            at = self.coordinates[faces]
+            longest = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
+            np.maximum.at(lengths, faces, longest[:, None])
+        return lengths
+
+    @property
+    def slides_on_a_plane(self):
+        """True for pairs with a rigid Plane, which stays the same along itself."""
+        other = self._made_of[_SIDES][1]
+        return isinstance(other, _Rigid) and isinstance(other.made_of[0], Plane)
 
     @property
     def _numbers_every_node_alike(self):

@@ -5,6 +5,7 @@ from collections import Counter
 
 import numpy as np
 
+from ._constants import State
 from ._equations import ORTHOGONAL
 from ._text import tell
 
@@ -103,6 +104,20 @@ def warn_of_facets(contact, name=None):
     """Warns of facets that change the interference of a case, if its gaps are those of the pairing."""
     for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
         tell((f"zone {name!r}: " if name else "") + sentence)
+
+
+def warn_of_slips(contact, d, state, name=None):
+    """Warns of pairs that slip by more than their face, as their rows hold what they faced before; on a plane that is the same."""
+    if not contact.pairs or contact.slides_on_a_plane:
+        return
+    slips = np.where(state == State.OPEN, 0.0, np.linalg.norm(d[:, 1:], axis=1))
+    lengths = contact.face_lengths[contact.nodes]
+    far = slips > lengths
+    if far.any():
+        worst, of = (slips / lengths).argmax(), f"zone {name!r}: " if name else ""
+        tell(f"{of}{np.count_nonzero(far)} pairs slip by more than their faces are long, that of slave node {contact.nodes[worst]} by "
+             f"{slips[worst]:.3g}, and its face has {lengths[worst]:.3g}: their rows hold what they faced before, so that this may be no "
+             "equilibrium of the moved bodies: take smaller steps, and pair again from the moved coordinates")
 
 
 def warn_of_repeats(contacts, equations):

@@ -128,7 +128,11 @@ pub(super) fn failure(
             None => indefinite.into(),
         },
         Failure::Negative(x) => {
-            format!("{indefinite}: the energy of a motion is negative: {}", moves(&x))
+            format!(
+                "{indefinite}: the energy of a motion is negative: {}; if bodies move so without strain, K is rounded: give all its \
+                 digits",
+                moves(&x)
+            )
         }
         Failure::NullVector(x) => {
             format!("a motion remains that no support and no pair holds: {}", moves(&x))
