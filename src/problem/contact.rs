@@ -144,8 +144,13 @@ impl<'a> ContactProblem<'a> {
         load: &'b [f64],
         (gap, law, slip): (&'b [f64], FrictionLaw<'b>, &'b [f64]),
     ) -> ContactProblem<'b> {
-        let Stiffness { symmetric, rounding, .. } = self.relation;
-        let relation = Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, self.dim) };
+        let Stiffness { symmetric, rounding, largest, .. } = self.relation;
+        let mut relation =
+            Stiffness { symmetric, rounding, ..Stiffness::new(matrix, load, self.dim) };
+        // The rest may hold a part that has no stiffness of its own.
+        if relation.largest == 0.0 {
+            relation.largest = largest;
+        }
         let (dim, reference_slip) = (self.dim, Some(slip));
         ContactProblem { relation, dim, gap, law, reference_slip, host: None }
     }

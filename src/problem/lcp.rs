@@ -66,7 +66,7 @@ impl<'a> Lcp<'a> {
         self.covering.map_or(1.0, |covering| covering[i])
     }
 
-    /// Largest entry of `M` in row or column `i`, which carries `z_i` to the unit of `w_i`.
+    /// Largest entry of `M` in row or column `i`, which carries `z_i` to the unit of `w_i`; where both are zero that of all.
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitude = vec![0.0_f64; self.size()];
         vectorised(
@@ -78,7 +78,9 @@ impl<'a> Lcp<'a> {
                 }
             },
         );
-        magnitude.iter_mut().filter(|most| **most == 0.0).for_each(|most| *most = 1.0);
+        let largest = largest_of(magnitude.iter().copied());
+        let otherwise = if largest > 0.0 { largest } else { 1.0 };
+        magnitude.iter_mut().filter(|most| **most == 0.0).for_each(|most| *most = otherwise);
         magnitude
     }
 }

@@ -512,3 +512,46 @@ fn a_tie_resists_all_motions_and_carries_all_forces() {
         assert!(edges.is_empty(), "{dim}: {edges:?}");
     }
 }
+
+/// A tie on springs beside a free mass on its obstacle, whose block of `K` is zero: pressed, it rests on the obstacle with
+/// the force of the press; drawn away, or along the obstacle without friction, it has no equilibrium. In any unit, to rounding.
+#[test]
+fn a_free_mass_beside_a_tie_rests_or_escapes() {
+    for (scale, gap, method) in [1.0, 2_f64.powi(40), 2_f64.powi(-40)]
+        .into_iter()
+        .flat_map(|scale| [-0.5, 0.0, 0.1].map(|gap| (scale, gap)))
+        .flat_map(|(scale, gap)| [Method::Auto, Method::Newton].map(|m| (scale, gap, m)))
+    {
+        let mut k = [0.0; 16];
+        (k[0], k[5]) = (scale, scale);
+        let settings = Settings { method, ..Settings::default() };
+        for load in [[1.0, 0.0], [-1.0, 0.0], [1.0, 0.5]] {
+            let f = [scale, 0.0, scale * load[0], scale * load[1]];
+            let (numbers, gaps) = ([TIED, [0.0; 4]].concat(), [0.0, gap]);
+            let problem = ContactProblem::new(ContactData {
+                dim: 2,
+                pairs: 2,
+                stiffness: &k,
+                ld: 4,
+                load: &f,
+                gap: &gaps,
+                law: FrictionLaw::ByPair(&numbers),
+                reference_slip: None,
+            })
+            .unwrap();
+            let monitor = &mut Monitor::new(&settings, None);
+            let found = solve(&problem, &settings, None, monitor).unwrap();
+            let context = format!("{scale:e}, {gap}, {method:?}, {load:?}: {}", found.message);
+            if load == [1.0, 0.0] {
+                assert_eq!(found.status, Status::Solved, "{context}");
+                assert!((found.d[2] - gap).abs() < 1e-12, "{context}: {:?}", found.d);
+                let force = &found.certificate.force;
+                assert!((force[2] + scale).abs() < 1e-12 * scale, "{context}: {force:?}");
+                assert!(!found.remarks.gaps_passed, "{context}");
+            } else if method == Method::Auto {
+                assert_eq!(found.status, Status::NoEquilibrium, "{context}");
+                assert!(is_escape(&problem, &found.recession.expect("a proof")), "{context}");
+            }
+        }
+    }
+}

@@ -199,3 +199,28 @@ fn block_pivoting_that_cycles_ends() {
     // By the other method it is solved: z = (0, 1.5).
     assert_eq!(data.solve(&Settings::default()).z, [0.0, 1.5]);
 }
+
+/// Skew problems of whole numbers with a row and a column of zeros, whose `q` is negative there: nothing solves that row. Whatever the
+/// unit of `M`, they are proved infeasible.
+#[test]
+fn a_row_of_zeros_is_proved_infeasible_in_any_unit() {
+    for seed in 0..500 {
+        let mut rng = Rng::with_seed(seed);
+        let n = rng.usize(2..=6);
+        let zero = rng.usize(0..n);
+        let mut entries = vec![0_i32; n * n];
+        for (i, j) in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let entry = if i == zero || j == zero { 0 } else { rng.i32(-2..=2) };
+            (entries[i + n * j], entries[j + n * i]) = (entry, -entry);
+        }
+        let of_row = |i| if i == zero { -3 } else { rng.i32(-3..=3) };
+        let q: Vec<f64> = (0..n).map(of_row).map(f64::from).collect();
+        for unit in [0, 30, -30, 150, -150] {
+            let m = entries.iter().map(|entry| f64::from(*entry) * power(unit)).collect();
+            let data = Bare { n, m, q: q.clone() };
+            let solution = solve(&data, Method::Auto);
+            assert_eq!(solution.status, Status::NoEquilibrium, "{seed} {data:?} {solution:?}");
+            assert_eq!(data.flaw(&solution, 1e-10), None, "{seed} {data:?}\n{solution:?}");
+        }
+    }
+}

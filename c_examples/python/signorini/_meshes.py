@@ -3,6 +3,7 @@
 import numpy as np
 
 from ._arrays import integers, reals
+from ._constants import Pairing, chosen
 from ._library import SignoriniError
 from ._matrices import check_matrices
 from ._mesh import TYPES, points
@@ -84,12 +85,12 @@ def check_owners(matrices, triangle, slave, master, pairing):
 
 
 def _covered(coordinates, slave, master, pairing):
-    """Pairs without the slave faces that lie over nothing and look elsewhere than those beside them that lie over the
-    master: they would bend the normals of the nodes at the rim. Faces are counted, and asked for what has passed
-    through them, as all were given."""
+    """Pairs whose normals are those of slave faces over the master. Against surfaces those that lie over nothing and look elsewhere
+    than those beside them are left out for that; faces are counted, and asked for what has passed through them, as all were
+    given."""
     whole = pair_surfaces(coordinates, slave, master, **pairing)
     uncovered = set(whole.uncovered.tolist())
-    if len(uncovered) in (0, len(slave)) or pairing.get("pairing", "dual_mortar") == "dual_mortar":
+    if len(uncovered) in (0, len(slave)):
         return whole
     normals = [_normal(coordinates[face[:corners(face, whole.dim)]]) for face in slave]
     around = {}
@@ -97,9 +98,11 @@ def _covered(coordinates, slave, master, pairing):
         if place not in uncovered:
             for node in face:
                 around[node] = around.get(node, 0) + normals[place]
-    kept = [place for place, face in enumerate(slave) if place not in uncovered or any(
+    faces = [face for place, face in enumerate(slave) if place not in uncovered or any(
         node in around and normals[place] @ around[node] > SAME_WAY * np.linalg.norm(around[node]) for node in face)]
-    faces = [slave[place] for place in kept]
+    if chosen("pairing", Pairing, pairing.get("pairing", Pairing.DUAL_MORTAR)) == Pairing.DUAL_MORTAR:
+        whole.drawn_faces = faces
+        return whole
     contact = pair_surfaces(coordinates, faces, master, **pairing)
     if contact.pairs < whole.pairs or contact.report.covered_area < SAME_AREA * whole.report.covered_area:
         # The default limits are those of the faces left, and smaller.

@@ -37,8 +37,8 @@ const ROUNDS: usize = 100;
 /// compliant pattern of forces over `e`; the stiffness with springs loses as many digits as `e` has.
 pub const COMPLIANCE: f64 = 1e-4;
 
-/// Least and largest `e`. The least leaves six digits of the stiffness with springs.
-pub const RANGE: [f64; 2] = [1e-10, 1e-1];
+/// Least and largest `e`. The least leaves six digits of the stiffness with springs; with the largest they are as compliant as the bodies.
+pub const RANGE: [f64; 2] = [1e-10, 1.0];
 
 /// The next `e`, softer up to `most` or less compliant.
 pub fn changed(compliance: f64, softer: bool, most: f64) -> f64 {
