@@ -1,6 +1,6 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
-use super::rounds::{COMPLIANCE, InSeries, RANGE, changed};
+use super::rounds::{InSeries, RANGE, changed};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::{Stop, Watch};
@@ -11,27 +11,18 @@ pub struct Springs<'p> {
     relation: &'p Flexibility<'p>,
     compliance: f64,
     stiffness: Vec<f64>,
-    /// No round is left to softer springs.
-    by_all_means: bool,
     monitor: &'p dyn Watch,
 }
 
 impl<'p> Springs<'p> {
-    /// The first springs; `None` if `W` has negative eigenvalues. `Err`: there is no time for them.
+    /// Springs of a compliance; `None` if `W` has negative eigenvalues. `Err`: there is no time for them.
     pub fn new(
         relation: &'p Flexibility<'p>,
-        by_all_means: bool,
+        compliance: f64,
         monitor: &'p dyn Watch,
     ) -> Result<Option<Self>, Stop> {
-        let stiffness = stiffness(relation, COMPLIANCE, monitor)?;
-        let first = |stiffness| Springs {
-            relation,
-            compliance: COMPLIANCE,
-            stiffness,
-            by_all_means,
-            monitor,
-        };
-        Ok(stiffness.map(first))
+        let stiffness = stiffness(relation, compliance, monitor)?;
+        Ok(stiffness.map(|stiffness| Springs { relation, compliance, stiffness, monitor }))
     }
 }
 
@@ -63,7 +54,7 @@ impl InSeries for Springs<'_> {
     }
 
     fn are_softest(&self) -> bool {
-        self.by_all_means || self.compliance >= RANGE[1]
+        self.compliance >= RANGE[1]
     }
 }
 

@@ -11,7 +11,7 @@
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
 use super::rounds::{
-    COMPLIANCE, InSeries, RANGE, RoundsFound, changed, rounds, solve as solve_by_rounds,
+    COMPLIANCE, InSeries, changed, first_or_soft, rounds, solve as solve_by_rounds,
 };
 use super::step::{Means, ended};
 use crate::error::{Argument, Error};
@@ -21,7 +21,6 @@ use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
 use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
-use crate::settings::{Method, Settings};
 use crate::solve::result::{Ending, Solution, Status};
 use crate::solve::rigid::{Balance, RigidMotions};
 
@@ -65,7 +64,12 @@ pub fn solve(
             right: Vec::new(),
             monitor,
         };
-        in_some_springs(problem, Means { settings, ..means }, bodies)
+        first_or_soft(problem, settings, |compliance, settings| {
+            let mut bodies = bodies(compliance);
+            bodies.set(compliance);
+            let force = vec![0.0; relation.size()];
+            rounds(problem, &mut bodies, force, Means { settings, ..means })
+        })
     })?;
     match found.solution.status {
         Status::Stalled => {
@@ -75,34 +79,6 @@ pub fn solve(
         }
         _ => Ok(found.solution),
     }
-}
-
-/// Rounds in the first springs, or if these do not settle by the path in the softest ones. Where a round has several solutions a method
-/// takes any of them, and rounds may follow one that wedges the bodies. In springs as compliant as the bodies hardly any round has: between
-/// two planes that wedge a node no solution of 8,000 was missed then, and in the first springs alone 190 of 1,648.
-fn in_some_springs<'p>(
-    problem: &ContactProblem<'p, DependentRows<'p>>,
-    means: Means<'_>,
-    bodies: impl Fn(f64) -> Bodies<'p>,
-) -> Result<RoundsFound, Error> {
-    let from_springs = |softest: f64, settings: &Settings| {
-        let mut bodies = bodies(softest);
-        bodies.set(softest);
-        let force = vec![0.0; problem.unknowns()];
-        rounds(problem, &mut bodies, force, Means { settings, ..means })
-    };
-    let settings = means.settings;
-    let found = from_springs(COMPLIANCE, settings)?;
-    let has_choice = settings.method == Method::Auto && !Contact::new(problem).is_frictionless();
-    if found.solution.status != Status::Stalled || !has_choice {
-        return Ok(found);
-    }
-    let by_path = Settings { method: Method::Path, ..settings.clone() };
-    let again = from_springs(RANGE[1], &by_path)?;
-    let systems = found.solution.factorisations + again.solution.factorisations;
-    let mut better = if again.solution.status == Status::Stalled { found } else { again };
-    better.solution.factorisations = systems;
-    Ok(better)
 }
 
 /// Rigid bodies at rest, if none has a stiffness and forces in the friction cones of closed pairs balance the loads: masonry stands

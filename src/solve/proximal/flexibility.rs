@@ -21,7 +21,7 @@ use super::compliant::{Springs, is_definite, is_indefinite, stiffness};
 use super::drawn::drawn;
 use super::growth::sentence;
 use super::on_flexibility::{DEAR, LawPoint, OnFlexibility};
-use super::rounds::{RoundsFound, rounds, solve as solve_by_rounds};
+use super::rounds::{RoundsFound, first_or_soft, rounds, solve as solve_by_rounds};
 use super::step::{Means, ended, step};
 use crate::error::{Argument, Error};
 use crate::law::{Contact, bounded, exceed_gaps};
@@ -53,15 +53,10 @@ pub fn solve(
     let with_start = (settings, start);
     let (found, proof) =
         solve_by_rounds(problem, number, with_start, |problem, settings, start| {
-            let means = Means { settings, ..means };
             let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-            let found = from_forces(problem, means, (&force, false))?;
-            if found.solution.status != Status::Stalled || settings.method != Method::Auto {
-                return Ok(found);
-            }
-            // Newton's method in softer springs leads elsewhere: each round has a solution whatever the friction.
-            let again = from_forces(problem, means, (&force, true))?;
-            Ok(if again.solution.status == Status::Stalled { found } else { again })
+            first_or_soft(problem, settings, |compliance, settings| {
+                from_forces(problem, Means { settings, ..means }, (&force, compliance))
+            })
         })?;
     let RoundsFound { mut solution, pattern } = found;
     if solution.status != Status::Stalled {
@@ -216,15 +211,14 @@ pub fn takes_newton(settings: &Settings) -> bool {
     matches!(settings.method, Method::Auto | Method::Newton)
 }
 
-/// Rounds from contact forces `force`, with the first springs; each `by_all_means` of the default method, or as far as
-/// Newton's method solves it.
+/// Rounds from contact forces `force`, with springs of a compliance at first.
 fn from_forces(
     problem: &FlexibilityProblem<'_>,
     means: Means<'_>,
-    (force, by_all_means): (&[f64], bool),
+    (force, compliance): (&[f64], f64),
 ) -> Result<RoundsFound, Error> {
     let (relation, settings) = (problem.relation(), means.settings);
-    match Springs::new(relation, by_all_means, means.monitor) {
+    match Springs::new(relation, compliance, means.monitor) {
         Ok(springs) => {
             let mut springs = springs.ok_or_else(|| {
                 Error::invalid(

@@ -13,7 +13,7 @@
 //!
 //! The default method has all its means in a round without friction, and between bodies that have a stiffness: Newton's method
 //! may find a solution of each round from which the next one leads away, and the path one from which it does not. On a singular
-//! `W` Newton's method comes first, in softer springs.
+//! `W` Newton's method comes first, in softer springs. Rounds that do not settle begin anew by the path in soft springs.
 //!
 //! Where forces grow with the least compliant springs too there is no solution near: they balance each other and wedge the bodies,
 //! or the gaps contradict each other. The second is proved by normal forces, and those of ties, that balance each other and
@@ -25,7 +25,7 @@ use crate::error::Error;
 use crate::law::{Contact, passes_gaps, without_friction};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
-use crate::problem::{ContactProblem, Redundant, Stiffness};
+use crate::problem::{ContactProblem, Redundant, Relation, Stiffness};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::AIM;
 use crate::solve::result::{Solution, Status};
@@ -126,6 +126,27 @@ pub fn solve<'p, R: Clone + Redundant>(
         found.solution.message = sentence(problem, pattern, proved.is_some(), number).into();
     }
     Ok((found, proved))
+}
+
+/// Rounds `from` the first springs, or if these do not settle by the path from those that are as compliant as the bodies. Where a round
+/// has several solutions a method takes any of them, and rounds may follow one that wedges the bodies. In soft springs hardly any
+/// round has: between two planes that wedge a node no solution of 8,000 was missed then, and in the first springs alone 190 of 1,648. On
+/// singular `W` with friction up to 50 it is half of them.
+pub fn first_or_soft<R: Relation>(
+    problem: &ContactProblem<'_, R>,
+    settings: &Settings,
+    mut from: impl FnMut(f64, &Settings) -> Result<RoundsFound, Error>,
+) -> Result<RoundsFound, Error> {
+    let found = from(COMPLIANCE, settings)?;
+    let has_choice = settings.method == Method::Auto && !Contact::new(problem).is_frictionless();
+    if found.solution.status != Status::Stalled || !has_choice {
+        return Ok(found);
+    }
+    let again = from(RANGE[1], &Settings { method: Method::Path, ..settings.clone() })?;
+    let systems = found.solution.factorisations + again.solution.factorisations;
+    let mut better = if again.solution.status == Status::Stalled { found } else { again };
+    better.solution.factorisations = systems;
+    Ok(better)
 }
 
 /// Rounds from contact forces `force`, each solved by `means`.
