@@ -75,11 +75,10 @@ fn pair_sides(
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
     let opposite = Some((&master, &on_master, wanted));
     let images = WithImages::new(settings, (&slave, &mut on), opposite, progress)?;
-    let mut settings = settings.clone();
-    if let Some(images) = &images {
-        settings.supports = images.with_images(settings.supports, slave.dim);
-    }
-    let settings = &settings;
+    let settings = &match &images {
+        Some(images) => images.with_images(settings, slave.dim),
+        None => settings.clone(),
+    };
     let sides = [slave, master];
     let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
     let mut found = search(sides.each_ref(), (&on, reach), settings, progress)?;

@@ -4,7 +4,7 @@
 //! and the row holds a node in the air by masters that are far away. Leaving the row out breaks the patch
 //! test. So `D_j d_j` is shared out to rows of nodes of the same faces: `Σ ψ_j = 1` stays, and with it the patch
 //! test. A node whose row has gone takes in none, so that no row goes further than one face; one with hardly any
-//! cover may go two. So does `D_j d_j` of a node that supports hold beside a master that they hold.
+//! cover may go two. So does `D_j d_j` of a node that supports hold, beside one that moves, over a master that they hold.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -107,7 +107,8 @@ pub(super) fn fold(
     gone.into_iter().map(fold).collect()
 }
 
-/// The nodes with enough cover, and those with little, the most first. What supports hold on both sides is as without cover.
+/// The nodes with enough cover, and those with little, the most first. What supports hold on both sides is as without cover, where a node
+/// beside it moves: a side that they hold wholly is an obstacle, whose rows are right.
 fn by_cover(
     settings: &SurfaceSettings,
     rows: &BTreeMap<usize, Row>,
@@ -116,10 +117,16 @@ fn by_cover(
 ) -> Result<(Vec<usize>, Vec<Weight>), Error> {
     let (mut enough, mut little) = (Vec::new(), Vec::new());
     let least = least_covers(settings.rims, rows, on, progress)?;
+    let held = rows.iter().filter(|(node, row)| row.is_between_supports(**node, settings));
+    let beside = beside((on.0, &[]), held.map(|(node, _)| *node), 1, progress)?;
+    let moves_beside = |node: &usize, row: &Row| {
+        let moves = |other: &usize| !settings.is_supported(*other, row.normal);
+        beside.get(node).is_some_and(|near| near.iter().any(moves))
+    };
     for (&node, row) in rows {
         progress.goes_on()?;
         match least.get(&node).is_none_or(|least| row.cover() >= *least) {
-            true if row.is_between_supports(node, settings) => little.push((node, 0.0)),
+            true if moves_beside(&node, row) => little.push((node, 0.0)),
             true => enough.push(node),
             false => little.push((node, row.cover())),
         }

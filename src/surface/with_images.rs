@@ -20,6 +20,7 @@ use super::surfaces::Faces;
 use super::sweep::Bounds;
 use super::symmetry::OnPlanes;
 use crate::error::Error;
+use crate::linalg::vector3::axis;
 
 /// A side with its images behind its own nodes and faces.
 struct Extended {
@@ -93,18 +94,16 @@ impl WithImages {
         [self.slave.on(slave), master]
     }
 
-    /// Supports of nodes along axes, ascending, with those of images of nodes that are held along all axes behind.
-    pub(super) fn with_images(
-        &self,
-        mut supports: Vec<(usize, usize)>,
-        dim: usize,
-    ) -> Vec<(usize, usize)> {
+    /// The supports of nodes along axes, with those of their images behind.
+    pub(super) fn with_images(&self, settings: &SurfaceSettings, dim: usize) -> SurfaceSettings {
         let images = &self.numbering.images;
-        let holds = |node: usize, axis: usize| supports.binary_search(&(node, axis)).is_ok();
-        let is_held = |image: &usize| (0..dim).all(|axis| holds(images.at(*image).1, axis));
-        let held: Vec<usize> = images.numbers().filter(is_held).collect();
-        supports.extend(held.into_iter().flat_map(|image| (0..dim).map(move |axis| (image, axis))));
-        supports
+        let is_held = |(image, along): &(usize, usize)| {
+            let (place, node) = images.at(*image);
+            settings.is_supported(node, images.motion(place).turn.transpose() * axis(*along))
+        };
+        let places = images.numbers().flat_map(|image| (0..dim).map(move |along| (image, along)));
+        let supports = settings.supports.iter().copied().chain(places.filter(is_held)).collect();
+        SurfaceSettings { supports, ..settings.clone() }
     }
 
     /// The pairs of nodes that the model has, among those of sides with images.

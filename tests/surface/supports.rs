@@ -2,7 +2,7 @@
 
 use crate::surfaces::{SHAPES, Sheet, TwoSheets, exact_loads, grid, line, nodal_forces, pair};
 use fastrand::Rng;
-use signorini::surface::{Rims, SurfacePairs, SurfaceSettings};
+use signorini::surface::{Rims, SurfacePairs, SurfaceSettings, SymmetryPlane};
 
 /// Pairs of two lines from 0 to 1, the body of the slave above, with supports of nodes along axes. The first node of the slave
 /// is 0, that of the master the number of slave nodes.
@@ -60,18 +60,53 @@ fn a_node_between_supports_has_no_pair_and_uniform_pressure_passes() {
     }
 }
 
-/// A slave that supports hold wholly, over a master that they hold at its end, is an obstacle: pairs are left, and a uniform pressure
-/// passes.
+/// A slave that supports hold wholly, over a master that they hold at its ends, is an obstacle, as a tool that is moved by prescribed
+/// values: it has the pairs that it has without supports.
 #[test]
-fn a_side_that_supports_hold_wholly_keeps_pairs() {
-    let (x, y) = ([0.0, 1.0], [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
-    let supports: Vec<(usize, usize)> =
-        [0, 1, 2].into_iter().flat_map(|node| [(node, 0), (node, 1)]).collect();
-    let found = lines([&x, &y], false, &supports, Rims::Fold);
-    assert!(!found.pairs.is_empty());
-    let forces = nodal_forces(&found, 8, 1.0);
-    for (force, load) in forces[2..].iter().zip(exact_loads(&y, false, [0.0, 1.0])) {
-        assert!((force[1].abs() - load).abs() < 1e-14, "{forces:?}");
+fn a_side_that_supports_hold_wholly_keeps_its_pairs() {
+    let rng = &mut Rng::with_seed(6);
+    for round in 0..100 {
+        let quadratic = round % 2 == 1;
+        let [x, y] = [1, 3].map(|least| grid(0.0, 1.0, rng.usize(least..9), rng));
+        let (first, all) = (line(&x, quadratic, 0).0.len(), line(&y, quadratic, 0).0.len());
+        let held = (0..first).chain([first, first + y.len() - 1]);
+        let supports: Vec<(usize, usize)> = held.flat_map(|node| [(node, 0), (node, 1)]).collect();
+        let [free, found] =
+            [&[], &supports[..]].map(|held| lines([&x, &y], quadratic, held, Rims::Fold));
+        assert_eq!(free.pairs, found.pairs, "{round}, {all} nodes");
+    }
+}
+
+/// Halves of lines up to a plane of symmetry, both held there along the normal: a uniform pressure loads all nodes as without supports,
+/// since the images of what is held are held.
+#[test]
+fn supports_on_a_plane_of_symmetry_are_those_of_the_whole() {
+    let rng = &mut Rng::with_seed(7);
+    for round in 0..100 {
+        let quadratic = round % 2 == 1;
+        let [x, y] = [3, 4].map(|least| grid(0.0, 1.0, rng.usize(least..9), rng));
+        let (own, slave) = line(&x, quadratic, 0);
+        let (opposite, mut master) = line(&y, quadratic, own.len());
+        master.iter_mut().for_each(|face| face.swap(0, 1));
+        let (first, nodes) = (own.len(), [own, opposite].concat());
+        let forces = [vec![], vec![(0, 1), (first, 1)]].map(|supports| {
+            let symmetry = vec![SymmetryPlane::across(0, 0.0)];
+            let settings = SurfaceSettings { supports, symmetry, ..Default::default() };
+            let found = pair(2, &nodes, [&slave, &master], &settings).unwrap();
+            let mut forces = vec![0.0; nodes.len()];
+            for pair in &found.pairs {
+                for &(node, weight) in pair.slaves().iter().chain(pair.masters()) {
+                    // Of images those of the model, on either side of the plane.
+                    forces[found.images.of(node).0] += pair.area * weight;
+                }
+            }
+            forces
+        });
+        let [own, opposite] = [&x, &y].map(|x| exact_loads(x, quadratic, [0.0, 1.0]));
+        for ((a, b), load) in forces[0].iter().zip(&forces[1]).zip(own.iter().chain(&opposite)) {
+            assert!((a - load).abs() < 1e-13, "{round}: {forces:?}");
+            assert!((b - load).abs() < 1e-13, "{round}: {forces:?}");
+        }
     }
 }
 

@@ -129,7 +129,7 @@ def pair_surfaces(coordinates, slave, master, *, pairing="dual_mortar", search_d
     angle of orthotropic friction counts; None: the axis most across the normals of all pairs, of equal ones the first.
     keep_turns: for sides that are tied: rows keep rigid turns of both, also where facets of curved sides do not fit.
     fixed: the fixed degrees of freedom of the model, if supports hold both sides in one place: a slave node that they hold along
-    its normal, beside a master that they hold too, then has no pair, as at rims. Its force would be any number.
+    its normal, beside one that moves and over a master that they hold, then has no pair, as at rims. Its force would be any number.
     time_limit: seconds; 0: none.  progress: as for solve; a function that cancels, or the limit, raises
     SignoriniError.
     """

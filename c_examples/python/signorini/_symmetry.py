@@ -59,8 +59,13 @@ def warn_of_supports(contact, fixed, name=None):
 
     def along(normal, free):
         return np.linalg.norm(np.where(free, normal, 0.0), axis=-1) <= _ALONG
-    for pair in np.flatnonzero(along(contact.normals, ~held)):
+    pairs = np.flatnonzero(along(contact.normals, ~held))
+    around = _beside(contact, contact.nodes[pairs])
+    for pair in pairs:
         normal, (dofs, weights) = contact.normals[pair], contact.rows[pair]
+        near = contact._dofs_of(np.array(sorted(around[contact.nodes[pair]])))
+        if along(normal, ~np.isin(near, fixed)).all():
+            continue  # an obstacle of finite elements
         if dofs.ndim == 1:  # by degree of freedom: those along the normal
             parts = weights @ normal
             is_held = np.isin(dofs, fixed)
@@ -73,6 +78,15 @@ def warn_of_supports(contact, fixed, name=None):
                  "this pair are masters beside the support, so that its force may be any number: give fixed to pair_surfaces, or pair "
                  "by node_to_surface")
             return
+
+
+def _beside(contact, nodes):
+    """Of each of some nodes those of its slave faces."""
+    around = {node: set() for node in nodes.tolist()}
+    for face in contact.slave_faces if around else []:
+        for node in around.keys() & set(face):
+            around[node].update(face)
+    return around
 
 
 def warn_of_nodes_beside(contact, name=None):
