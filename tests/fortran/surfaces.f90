@@ -166,11 +166,13 @@ contains
         integer, parameter :: floor(2, 1) = reshape([6, 5], [2, 1])
         type(signorini_surface_settings) :: limits
         type(signorini_obstacle), target :: plane
+        ! By dual mortar the side, which lies over nothing, has no say in the averaged normal.
+        real(dp), parameter :: averaged(2, 2) = reshape([0._dp, -1._dp, -sqrt(0.5_dp), -sqrt(0.5_dp)], [2, 2])
         integer :: pairing, rims
         do pairing = SIGNORINI_PAIRING_DUAL_MORTAR, SIGNORINI_PAIRING_NODE_TO_SURFACE
             call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
                 normals=int(SIGNORINI_NORMALS_AVERAGED), message=message)
-            call expect('averaged', info == 0 .and. all(abs(surfaces%normal(:, 1) + sqrt(0.5_dp)) < 1d-15))
+            call expect('averaged', info == 0 .and. all(abs(surfaces%normal(:, 1) - averaged(:, pairing + 1)) < 1d-15))
             call surfaces%pair(around, sides, floor, info, pairing=pairing, search_distance=0.5_dp, &
                 normals=int(SIGNORINI_NORMALS_FACES), message=message)
             call expect('of faces', info == 0 .and. all(abs(surfaces%normal(:, 1) - [0, -1]) < 1d-15))
