@@ -6,6 +6,7 @@
 //! the true shape of the master.
 
 use super::curved_patch::Patch;
+use super::digits::ON_PLANE;
 use super::exact_shape::ExactShape;
 use super::face::Face;
 use super::fitted_normals::{Fitted, SMOOTH, fitted};
@@ -120,36 +121,43 @@ impl<'a> TrueSides<'a> {
     }
 }
 
-/// Refuses a shape of which a face is no facet, as that of a chamfer at the end of a bore: one that looks elsewhere, or that ends
-/// further away than a face leads which leaves the shape at a quarter of the angle of a sharp edge.
+/// Refuses a shape of which a face is no facet, as that of a chamfer at the end of a bore: one with a corner as far away as a face leads that
+/// leaves the shape at a quarter of the angle of a sharp edge, or off the shape and turned by that angle; or one that is across it. Mid
+/// nodes may stand on chords.
 fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
-    let far = ((1.0 - SMOOTH) / 8.0).sqrt();
+    let of_corners = ((1.0 - SMOOTH) / 8.0).sqrt();
     for at in 0..side.count() {
         let face = side.face(at);
-        for &node in face.nodes {
-            let place = format!("node {} of face {}", index(node), index(at));
+        let mut is_off = false;
+        for (place, &node) in face.nodes.iter().enumerate() {
+            let named = || format!("node {} of face {}", index(node), index(at));
             let (distance, normal) = shape.distance(side.position(node));
+            let part = distance.abs() / face.size();
             // The apex of a cone is a point of it.
-            if normal.is_none() && distance.abs() > LAST * face.size() {
+            if normal.is_none() && part > LAST {
                 return Err(format!(
-                    "{place} stands on its axis or in its centre: leave that face out of the side"
+                    "{} stands on its axis or in its centre: leave that face out of the side",
+                    named()
                 ));
             }
-            if distance.abs() > far * face.size() {
-                let part = distance.abs() / face.size();
+            let is_corner = place < face.kind.corners();
+            if part > if is_corner { of_corners } else { 1.0 } {
                 return Err(format!(
-                    "{place} is {part:.2} of the face's size away from it: leave that face out of the side, or look at the shape's \
-                     place and unit of length"
+                    "{} is {part:.2} of the face's size away from it: leave that face out of the side, or look at the shape's \
+                     place and unit of length",
+                    named()
                 ));
             }
+            is_off |= is_corner && part > ON_PLANE;
         }
-        let (middle, own) = (face.position(face.kind.centre()), face.middle_normal());
-        if let (_, Some(normal)) = shape.distance(middle)
-            && normal.dot(&own).abs() < SMOOTH
-        {
+        let (_, normal) = shape.distance(face.position(face.kind.centre()));
+        let cosine = normal.map_or(1.0, |normal| normal.dot(&face.middle_normal()).abs());
+        // Facets of large angles, and ends of a cylinder, have their corners on it.
+        if cosine < if is_off { SMOOTH } else { LEAST_FALL } {
             return Err(format!(
-                "face {} is turned from it by more than 35 degrees: leave that face out of the side, or look at the shape's place",
-                index(at)
+                "face {} is turned from it by {:.0} degrees: leave that face out of the side, or look at the shape's place",
+                index(at),
+                cosine.acos().to_degrees()
             ));
         }
     }
