@@ -7,17 +7,18 @@
 //! in space Popp, Gitterle, Gee and Wall (2010); faces that are covered in part: Cichosz and Bischoff
 //! (2011). As `Σ ψ_j = 1`, forces `F_j = p D_j` load the master's nodes by `p ∫ Nᵐ_k`: the patch test.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::assembly::{pair_of_row, pairs_of_rows};
 use super::candidates::{Candidates, SAME_WAY, SearchFaces};
 use super::control::Edges;
+use super::digits::ON_PLANE;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairing_progress::PairingProgress;
-use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
@@ -76,24 +77,8 @@ pub(super) fn pairs<'a>(
     candidates.look_beyond(sides, &mut report, progress)?;
     let mut rows = rows(slave, faces, (&mut report, progress))?;
     if settings.normals == Normals::Averaged {
-        // Around a sharp edge faces that lie over nothing have none of the contact.
-        let looks_elsewhere =
-            |row: &Row, normal: &Vector3| row.normal.dot(normal) <= SAME_WAY * row.normal.norm();
-        let counts = |at: usize, node: usize, normal: &Vector3| {
-            report.uncovered_faces.binary_search(&at).is_err()
-                || !rows.get(&node).is_some_and(|row| looks_elsewhere(row, normal))
-        };
-        let averaged = slave.node_normals(planes, counts, progress)?;
-        for (node, row) in &mut rows {
-            progress.goes_on()?;
-            let mean = averaged[node];
-            if mean != Vector3::zeros() {
-                row.normal = row.area * mean;
-            }
-        }
+        average(&mut rows, (slave, planes, &report.uncovered_faces), progress)?;
     }
-    let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold(settings, &mut rows, on, progress)?;
     let pair = |node, row: Row| {
         let gap = row.gap / row.area;
         // The mean over what the row covers, with the rows that it has taken in.
@@ -105,7 +90,53 @@ pub(super) fn pairs<'a>(
         }
         Ok(pair)
     };
+    let held = between_supports(&rows, (slave, settings), pair);
+    let on = (slave, &report.uncovered_faces[..], planes);
+    report.folded = rims::fold((settings, &held), &mut rows, on, progress)?;
     pairs_of_rows(slave, rows, report, pair, progress)
+}
+
+/// Gives rows the mean normals at their nodes, without faces around sharp edges that lie over nothing: these have none of the contact.
+fn average(
+    rows: &mut BTreeMap<usize, Row>,
+    (slave, planes, uncovered): (&Side<'_>, &OnPlanes, &[usize]),
+    progress: &mut PairingProgress<'_, '_>,
+) -> Result<(), Error> {
+    let looks_elsewhere =
+        |row: &Row, normal: &Vector3| row.normal.dot(normal) <= SAME_WAY * row.normal.norm();
+    let counts = |at: usize, node: usize, normal: &Vector3| {
+        uncovered.binary_search(&at).is_err()
+            || !rows.get(&node).is_some_and(|row| looks_elsewhere(row, normal))
+    };
+    let averaged = slave.node_normals(planes, counts, progress)?;
+    for (node, row) in rows {
+        progress.goes_on()?;
+        let mean = averaged[node];
+        if mean != Vector3::zeros() {
+            row.normal = row.area * mean;
+        }
+    }
+    Ok(())
+}
+
+/// The nodes whose rows supports hold on both sides where these touch, each as `pair` makes it. A gap between supports stays what it
+/// is: the model refuses a penetration there.
+fn between_supports(
+    rows: &BTreeMap<usize, Row>,
+    (slave, settings): (&Side<'_>, &SurfaceSettings),
+    pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
+) -> BTreeSet<usize> {
+    let near = ON_PLANE * slave.largest_face() / slave.scale;
+    let touch = |node: usize, row: &Row| {
+        pair(node, row.clone()).is_ok_and(|pair| {
+            let apart = settings.gap(pair.gap / slave.scale).abs();
+            apart <= near
+        })
+    };
+    let between = rows
+        .iter()
+        .filter(|(node, row)| row.is_between_supports(**node, settings) && touch(**node, row));
+    between.map(|(node, _)| *node).collect()
 }
 
 impl<'a> Search<'a> {

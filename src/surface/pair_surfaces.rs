@@ -63,7 +63,12 @@ fn pair_sides(
     settings: &SurfaceSettings,
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
-    let settings = &settings.checked(slave.dim)?;
+    let mut settings = settings.checked(slave.dim)?;
+    if master.is_rigid() {
+        // Its nodes have numbers of their own.
+        settings.supports.clear();
+    }
+    let settings = &settings;
     let unit = Unit::of(slave.lengths().chain(master.lengths()));
     let slave = slave.checked(unit.inside, settings, progress)?;
     let master = master.checked(unit.inside, settings, progress)?;

@@ -53,15 +53,16 @@ const NEXT_BUT_ONE: f64 = 0.02;
 const AS_NEAR: f64 = 0.9;
 
 /// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs whose
-/// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others.
+/// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others. So are
+/// the rows of nodes that are `held` between supports.
 pub(super) fn fold(
-    settings: &SurfaceSettings,
+    (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
-    let (kept, little) = by_cover(settings, rows, (slave, uncovered), progress)?;
+    let (kept, little) = by_cover((settings, held), rows, (slave, uncovered), progress)?;
     let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
     let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, progress)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -107,18 +108,17 @@ pub(super) fn fold(
     gone.into_iter().map(fold).collect()
 }
 
-/// The nodes with enough cover, and those with little, the most first. What supports hold on both sides is as without cover, where a node
+/// The nodes with enough cover, and those with little, the most first. What is `held` on both sides is as without cover, where a node
 /// beside it moves: a side that they hold wholly is an obstacle, whose rows are right.
 fn by_cover(
-    settings: &SurfaceSettings,
+    (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
     rows: &BTreeMap<usize, Row>,
     on: (&Side<'_>, &[usize]),
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(Vec<usize>, Vec<Weight>), Error> {
     let (mut enough, mut little) = (Vec::new(), Vec::new());
     let least = least_covers(settings.rims, rows, on, progress)?;
-    let held = rows.iter().filter(|(node, row)| row.is_between_supports(**node, settings));
-    let beside = beside((on.0, &[]), held.map(|(node, _)| *node), 1, progress)?;
+    let beside = beside((on.0, &[]), held.iter().copied(), 1, progress)?;
     let moves_beside = |node: &usize, row: &Row| {
         let moves = |other: &usize| !settings.is_supported(*other, row.normal);
         beside.get(node).is_some_and(|near| near.iter().any(moves))

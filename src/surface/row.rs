@@ -61,8 +61,10 @@ impl Row {
     /// True for the row of a node that supports hold along its normal, as they do a master that it names.
     pub(super) fn is_between_supports(&self, node: usize, settings: &SurfaceSettings) -> bool {
         let is_held = |node: usize| settings.is_supported(node, self.normal);
-        let masters = self.weights.iter().filter(|(node, _)| node & MASTER != 0);
-        is_held(node) && masters.into_iter().any(|(node, w)| *w != 0.0 && is_held(node & !MASTER))
+        let is_named = |weight: f64| weight.abs() > ROUNDING * self.area;
+        let mut masters =
+            self.weights.iter().filter(|(node, w)| node & MASTER != 0 && is_named(*w));
+        is_held(node) && masters.any(|(node, _)| is_held(node & !MASTER))
     }
 
     /// Adds master nodes.

@@ -98,11 +98,12 @@ def _covered(coordinates, slave, master, pairing):
         if place not in uncovered:
             for node in face:
                 around[node] = around.get(node, 0) + normals[place]
-    faces = [face for place, face in enumerate(slave) if place not in uncovered or any(
+    kept = [place for place, face in enumerate(slave) if place not in uncovered or any(
         node in around and normals[place] @ around[node] > SAME_WAY * np.linalg.norm(around[node]) for node in face)]
     if chosen("pairing", Pairing, pairing.get("pairing", Pairing.DUAL_MORTAR)) == Pairing.DUAL_MORTAR:
-        whole.drawn_faces = faces
+        whole.drawn_faces = [whole.slave_faces[place] for place in kept]
         return whole
+    faces = [slave[place] for place in kept]
     contact = pair_surfaces(coordinates, faces, master, **pairing)
     if contact.pairs < whole.pairs or contact.report.covered_area < SAME_AREA * whole.report.covered_area:
         # The default limits are those of the faces left, and smaller.

@@ -220,6 +220,7 @@ class SurfacePairs(Remade):
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
         fixed = indices(supports(fixed))
+        self.knows_supports = len(fixed) > 0
         settings.n_fixed, settings.fixed = len(fixed), at(fixed) if len(fixed) else None
         if tangent is not None:
             settings.tangent[:] = fit("tangent", tangent, [(3,)], "a direction, shape (3,)")
@@ -429,10 +430,9 @@ class SurfacePairs(Remade):
         return lengths
 
     @property
-    def slides_on_a_plane(self):
-        """True for pairs with a rigid Plane, which stays the same along itself."""
-        other = self._made_of[_SIDES][1]
-        return isinstance(other, _Rigid) and isinstance(other.made_of[0], Plane)
+    def is_with_obstacle(self):
+        """True for pairs with a rigid obstacle."""
+        return isinstance(self._made_of[_SIDES][1], _Rigid)
 
     @property
     def _numbers_every_node_alike(self):

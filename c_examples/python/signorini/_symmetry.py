@@ -53,25 +53,27 @@ def warn_of_planes(contact, fixed, name=None):
 def warn_of_supports(contact, fixed, name=None):
     """Warns of slave nodes with a pair, and a master of its row, that supports hold along its normal, where others of the row are free."""
     fixed = np.asarray(fixed)
-    if not len(fixed) or not contact.pairs:
+    if not len(fixed) or not contact.pairs or contact.is_with_obstacle or contact.knows_supports:
         return
-    held = np.isin(contact._dofs_of(contact.nodes), fixed)
+    is_fixed = np.zeros(1 + max(fixed.max(), *(dofs.max() for dofs, _ in contact.rows), contact._least), bool)
+    is_fixed[fixed] = True
+    held = is_fixed[contact._dofs_of(contact.nodes)]
 
     def along(normal, free):
         return np.linalg.norm(np.where(free, normal, 0.0), axis=-1) <= _ALONG
     pairs = np.flatnonzero(along(contact.normals, ~held))
-    around = _beside(contact, contact.nodes[pairs])
+    around, rows = _beside(contact, contact.nodes[pairs]), contact.rows
     for pair in pairs:
-        normal, (dofs, weights) = contact.normals[pair], contact.rows[pair]
+        normal, (dofs, weights) = contact.normals[pair], rows[pair]
         near = contact._dofs_of(np.array(sorted(around[contact.nodes[pair]])))
-        if along(normal, ~np.isin(near, fixed)).all():
+        if along(normal, ~is_fixed[near]).all():
             continue  # an obstacle of finite elements
         if dofs.ndim == 1:  # by degree of freedom: those along the normal
             parts = weights @ normal
-            is_held = np.isin(dofs, fixed)
+            is_held = is_fixed[dofs]
             is_master = parts * (weights @ np.ones(contact.dim)) < 0
         else:
-            parts, is_held, is_master = weights, along(normal, ~np.isin(dofs, fixed)), weights < 0
+            parts, is_held, is_master = weights, along(normal, ~is_fixed[dofs]), weights < 0
         if (is_held & is_master).any() and (parts[~is_held] != 0).any():
             of = f"zone {name!r}: " if name else ""
             tell(f"{of}supports hold slave node {contact.nodes[pair]} along its normal, and the master beside it: all that is left of "
@@ -121,8 +123,8 @@ def warn_of_facets(contact, name=None):
 
 
 def warn_of_slips(contact, d, state, name=None):
-    """Warns of pairs that slip by more than their face, as their rows hold what they faced before; on a plane that is the same."""
-    if not contact.pairs or contact.slides_on_a_plane:
+    """Warns of pairs that slip by more than their face, as their rows hold what they faced before; of an obstacle they hold nothing."""
+    if not contact.pairs or contact.is_with_obstacle:
         return
     slips = np.where(state == State.OPEN, 0.0, np.linalg.norm(d[:, 1:], axis=1))
     lengths = contact.face_lengths[contact.nodes]
