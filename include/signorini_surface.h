@@ -251,8 +251,8 @@ struct signorini_surface_settings {
     /**
      * Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
      * supports hold both sides in one place: a slave node that they hold along its normal, beside
-     * one that moves and over a master that they hold, then has no pair, as at rims. Its force
-     * would be any number.
+     * one that moves and upon a master that they hold, then has no pair, as at rims, if both touch
+     * there. Its force would be any number.
      */
     int64_t n_fixed;
     const int64_t *fixed; /**< These degrees of freedom, as for signorini_model_new_sparse. */

@@ -144,8 +144,8 @@ pub struct SignoriniSurfaceSettings {
     pub reserved: i32,
     /// Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
     /// supports hold both sides in one place: a slave node that they hold along its normal, beside
-    /// one that moves and over a master that they hold, then has no pair, as at rims. Its force
-    /// would be any number.
+    /// one that moves and upon a master that they hold, then has no pair, as at rims, if both touch
+    /// there. Its force would be any number.
     pub n_fixed: i64,
     /// These degrees of freedom, as for signorini_model_new_sparse.
     pub fixed: *const i64,

@@ -86,7 +86,7 @@ pub struct SurfaceSettings {
     /// pair, and the host's displacements obey `u = Q u'`.
     pub sector: Option<Sector>,
     /// Nodes of both sides with an axis along which supports hold them, in any order. The row of a slave node that is held along
-    /// its normal, beside one that is not, and names a master that is held along it too, goes to a node of its own faces, as at rims: all
+    /// its normal, beside one that is not, and names a master that is held along it too, goes to a node of its own faces, as at rims, if both touch there: all
     /// that is left of such a row are small weights of masters beside the support, which forces without end would pull at. Of dual
     /// mortar.
     pub supports: Vec<(usize, usize)>,
