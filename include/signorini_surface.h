@@ -249,13 +249,15 @@ struct signorini_surface_settings {
     int32_t keep_turns;
     int32_t reserved;                       /**< 0. */
     /**
-     * Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
-     * supports hold both sides in one place: a slave node that they hold along its normal, beside
-     * one that moves and upon a master that they hold, then has no pair, as at rims, if both touch
-     * there. Its force would be any number.
+     * Number of degrees of freedom that are fixed, and of those that equations derive from fixed
+     * ones alone; default 0. Give them with dual mortar where supports hold both sides in one
+     * place: a slave node that they hold along its normal, beside one that moves and upon a master
+     * that they hold, then has no pair, as at rims, if both touch there. Its force would be any
+     * number.
      */
     int64_t n_fixed;
-    const int64_t *fixed; /**< These degrees of freedom, as for signorini_model_new_sparse. */
+    /** These degrees of freedom, numbered as for signorini_model_new_sparse. */
+    const int64_t *fixed;
 };
 
 /** Fills settings with their defaults; struct_size is sizeof(signorini_surface_settings). */

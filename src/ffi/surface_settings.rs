@@ -142,12 +142,13 @@ pub struct SignoriniSurfaceSettings {
     pub keep_turns: i32,
     /// 0.
     pub reserved: i32,
-    /// Number of fixed degrees of freedom of the model; default 0. Give them with dual mortar where
-    /// supports hold both sides in one place: a slave node that they hold along its normal, beside
-    /// one that moves and upon a master that they hold, then has no pair, as at rims, if both touch
-    /// there. Its force would be any number.
+    /// Number of degrees of freedom that are fixed, and of those that equations derive from fixed
+    /// ones alone; default 0. Give them with dual mortar where supports hold both sides in one
+    /// place: a slave node that they hold along its normal, beside one that moves and upon a master
+    /// that they hold, then has no pair, as at rims, if both touch there. Its force would be any
+    /// number.
     pub n_fixed: i64,
-    /// These degrees of freedom, as for signorini_model_new_sparse.
+    /// These degrees of freedom, numbered as for signorini_model_new_sparse.
     pub fixed: *const i64,
 }
 

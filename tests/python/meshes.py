@@ -250,6 +250,39 @@ class Pairs(unittest.TestCase):
             with self.assertRaisesRegex(kind, words):
                 signorini.pair_meshes(mesh, (below, {"quad": [[0, 1, 2, 3]]}))
 
+    def test_supports_by_equations(self):
+        """Two bars of 5 and 7 squares, whose ends follow one node each, which is fixed, some through another one: their pairs are
+        those of ends that are fixed themselves, and fewer than those of free ends."""
+        def bar(count, low):
+            x = 5 * np.arange(count + 1) / count
+            at = np.vstack([np.column_stack([x, np.full_like(x, low + up)]) for up in (0, 1)])
+            first = np.arange(count)
+            cells = np.column_stack([first, first + 1, first + count + 2, first + count + 1])
+            return at, {"quad": cells}
+
+        slave, master = bar(5, 1.0), bar(7, 0.0)
+        at = np.vstack([slave[0], master[0]])
+        ends = [np.flatnonzero((at[:, 0] == x) & (part == body))
+                for part in [np.arange(len(at)) >= len(slave[0])] for body in (0, 1) for x in (0, 5)]
+        heads = [end[0] for end in ends]
+        follow = [(2 * node + axis, [2 * before + axis], [1.0]) for end in ends for before, node in itertools.pairwise(end)
+                  for axis in (0, 1)]
+        size = 2 * len(at)
+        K = np.ones(size), np.arange(size), np.arange(size + 1)
+
+        def contact(fixed, **settings):
+            return signorini.Model.from_meshes(
+                K, slave, master, fixed=fixed, settings=settings,
+                slave_faces=lambda at: at[:, 1] == 1, master_faces=lambda at: at[:, 1] == 1).contact
+        dofs = (2 * np.array(heads)[:, None] + [0, 1]).ravel()
+        by_equations = contact(dofs, equations=follow[::-1])
+        by_fixed = contact((2 * np.concatenate(ends)[:, None] + [0, 1]).ravel())
+        self.assertLess(by_fixed.pairs, contact(()).pairs)
+        np.testing.assert_array_equal(by_equations.nodes, by_fixed.nodes)
+        for (dofs_of, weights), (known, exact) in zip(by_equations.rows, by_fixed.rows, strict=True):
+            np.testing.assert_array_equal(dofs_of, known)
+            np.testing.assert_array_equal(weights, exact)
+
     def test_model(self):
         """The two bodies apart, with a matrix each, give the forces of both in one matrix."""
         blocks, cut = self.blocks, 3 * self.below

@@ -50,6 +50,18 @@ class Equations:
         return [(int(of), self.dofs[begin:end], self.coefficients[begin:end])
                 for of, (begin, end) in zip(self.dependent, ends)]
 
+    def held(self, fixed):
+        """fixed, and the degrees of freedom that depend on no others than these."""
+        size = 1 + int(max(self.dependent.max(initial=-1), self.dofs.max(initial=-1), np.max(fixed, initial=-1)))
+        is_held, rows = np.zeros(size, bool), np.repeat(np.arange(len(self.dependent)), np.diff(self.start))
+        is_held[fixed] = True
+        while True:  # dependents may depend on others, in no circle
+            free = np.bincount(rows, ~is_held[self.dofs] & (self.coefficients != 0), len(self.dependent))
+            more = self.dependent[(free == 0) & ~is_held[self.dependent]]
+            if not len(more):
+                return np.flatnonzero(is_held)
+            is_held[more] = True
+
     def extended(self, u, enough=None):
         """u, and behind its end what the equations give to those that depend on it; so many entries are enough, None: all.
 

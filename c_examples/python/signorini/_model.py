@@ -60,6 +60,11 @@ def _given(f):
     return f
 
 
+def _held(fixed, equations):
+    """What supports hold, and what follows from that by equations."""
+    return fixed if equations is None else Equations(equations).held(fixed)
+
+
 def flexibility(W, triangle):
     """W of a problem in flexibility form: an array by columns, or a Matrix."""
     return Matrix(W, triangle, name="W") if is_sparse(W) else stiffness("W", W)
@@ -264,10 +269,10 @@ class Model(Remade):
         matrix, fixed = Matrix(K, triangle, order), supports(fixed)
         if zones and zones.remark:
             tell(zones.remark)
-        contacts = zones.contacts if zones else {None: contact}
+        contacts, held = zones.contacts if zones else {None: contact}, _held(fixed, equations)
         for name, one in contacts.items():
             warn_of_planes(one, fixed, name)
-            warn_of_supports(one, fixed, name)
+            warn_of_supports(one, held, name)
             warn_of_nodes_beside(one, name)
             warn_of_numbers(one, matrix, name)
             if not one.pairs or "all slave faces look away" in one.summary:
@@ -297,10 +302,11 @@ class Model(Remade):
         K: as for sparse, or two matrices, of the slave's and of the master's mesh. Degrees of
         freedom are those of the slave's nodes, then those of the master's.  fixed, triangle: as for
         sparse.
-        settings: a dict of those of sparse, such as {"full_space": True}.
+        settings: a dict of those of sparse, such as {"full_space": True} or {"equations": ...}.
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
-        contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, fixed=fixed, **pairing)
+        held = _held(supports(fixed), (settings or {}).get("equations"))
+        contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, fixed=held, **pairing)
         parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
         check_owners(parts, triangle, slave, master, pairing)
         K = side_by_side(parts) if len(parts) == 2 else K
