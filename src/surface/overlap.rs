@@ -58,6 +58,7 @@ pub(super) struct SlaveFace<'a> {
     /// Degrees that its own integrals ask for beyond those of its functions.
     further: usize,
     outline: Vec<Point>,
+    size: f64,
     /// A convex polygon around a curved face in the plane.
     around: Option<Vec<Point>>,
     area: f64,
@@ -92,8 +93,9 @@ pub(super) struct Overlaps {
     pub(super) points: Vec<Meeting>,
     clipper: Clipper,
     near: Clipper,
-    /// A master's outline in the plane.
+    /// A master's outline in the plane, and what lies between its points on curved edges.
     window: Vec<Point>,
+    bent: Vec<[Point; 3]>,
     /// A master's outline where a curved slave is straight.
     mapped: Vec<Point>,
     /// The part of a common part that has no points yet.
@@ -129,8 +131,20 @@ impl<'a> SlaveFace<'a> {
         let area = measure(&own);
         // A curved face's own integrals are those of its loads, whatever its edges leave to neighbours.
         let further = around.as_ref().map_or(0, |_| of_distortion(straight.distortion(), LEFT));
-        let (outline, face, of_gaps) = (own, face.clone(), 0);
-        SlaveFace { plane, flat, straight, bending, further, outline, around, area, face, of_gaps }
+        let (outline, size, face, of_gaps) = (own, face.size(), face.clone(), 0);
+        SlaveFace {
+            plane,
+            flat,
+            straight,
+            bending,
+            further,
+            outline,
+            size,
+            around,
+            area,
+            face,
+            of_gaps,
+        }
     }
 
     /// The face with points for gaps that have this degree beyond those of faces.
@@ -147,12 +161,12 @@ impl<'a> SlaveFace<'a> {
         found: &mut Overlaps,
     ) -> Option<Part> {
         let seen = self.plane.project(master);
-        let Overlaps { points, clipper, near, window, mapped, rest } = found;
-        outline(&seen, window);
+        let Overlaps { points, clipper, near, window, bent, mapped, rest } = found;
+        outline(&seen, self.size, window, bent);
         let common = match &self.around {
             None => clipper.common_part(window, &self.outline),
             Some(around) => {
-                self.map(near.common_part(window, around), mapped)?;
+                self.map(near.common_part(window, around), bent, mapped)?;
                 clipper.common_part(mapped, &self.outline)
             }
         };
@@ -175,20 +189,23 @@ impl<'a> SlaveFace<'a> {
     pub(super) fn of_smaller(&self, share: f64, other: &Face<'_>) -> f64 {
         let [own, other] = [&self.flat.face, &self.plane.project(other)].map(|face| {
             let mut polygon = Vec::new();
-            outline(face, &mut polygon);
+            outline(face, self.size, &mut polygon, &mut Vec::new());
             measure(&polygon)
         });
         share * own / own.min(other)
     }
 
-    /// A polygon of the plane where the face is straight. With edges that this bends much it has their middles too. `None`: a
-    /// part of it has no local coordinates.
-    fn map(&self, polygon: &[Point], mapped: &mut Vec<Point>) -> Option<()> {
+    /// A polygon of the plane where the face is straight. With edges that this bends much it has their middles too, of `bent` ones
+    /// those on the curve: an edge that two faces share is one there. `None`: a part of it has no local coordinates.
+    fn map(&self, polygon: &[Point], bent: &[[Point; 3]], mapped: &mut Vec<Point>) -> Option<()> {
         mapped.clear();
         let halve = OF_BENDING * self.bending > MOST_SAG && !self.face.kind.is_line();
         for (i, &p) in polygon.iter().enumerate() {
             let next = polygon[(i + 1) % polygon.len()];
-            let middle = [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
+            let goes = |from: Point, to: Point| (from, to) == (p, next) || (to, from) == (p, next);
+            let on_curve = bent.iter().find(|[from, _, to]| goes(*from, *to));
+            let straight = || [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
+            let middle = on_curve.map_or_else(straight, |[_, between, _]| *between);
             for p in [Some(p), halve.then_some(middle)].into_iter().flatten() {
                 mapped.push(self.straight.place(self.flat.local_beyond(p)?));
             }

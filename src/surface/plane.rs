@@ -62,14 +62,39 @@ impl Plane {
 /// strip of two thirds of this counts for the neighbour, with it of a quarter of that.
 pub(super) const MOST_SAG: f64 = 5e-4;
 
-/// Makes a polygon the outline of a projected face, turning to the left, or an interval that ascends.
-pub(super) fn outline(Face { kind, x, .. }: &Face<'_>, polygon: &mut Vec<Point>) {
+/// Most pairs of straight lines in the place of a curved edge: beyond, the other face is a sliver.
+const MOST_PARTS: f64 = 16.0;
+
+/// Makes a polygon the outline of a projected face, turning to the left, or an interval that ascends. Of curved edges it has points
+/// that are no further from each other than `longest`, and `bent` the places between two of these, in the middle.
+pub(super) fn outline(
+    face: &Face<'_>,
+    longest: f64,
+    polygon: &mut Vec<Point>,
+    bent: &mut Vec<[Point; 3]>,
+) {
+    let Face { kind, x, .. } = face;
     polygon.clear();
+    bent.clear();
     let mut mids = kind.mids().filter(|_| !kind.is_line());
     for corner in 0..kind.corners() {
         polygon.push([x[corner].x, x[corner].y]);
-        let mid = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG);
-        polygon.extend(mid.map(|(mid, _)| [x[mid].x, x[mid].y]));
+        let Some((mid, ends)) = mids.next().filter(|(mid, ends)| sag(x, *mid, *ends) > MOST_SAG)
+        else {
+            continue;
+        };
+        let [a, b] = ends.map(|end| x[end]);
+        let parts = 2.0 * (2.0 * (b - a).norm() / longest).ceil().clamp(1.0, MOST_PARTS);
+        let at = |t: f64| {
+            let place = (1.0 - t) * (1.0 - 2.0 * t) * a + 4.0 * t * (1.0 - t) * x[mid];
+            let place = place + t * (2.0 * t - 1.0) * b;
+            [place.x, place.y]
+        };
+        for part in 0..parts as usize {
+            let [from, between, to] = [0.0, 0.5, 1.0].map(|c| at((part as f64 + c) / parts));
+            polygon.extend((part > 0).then_some(from));
+            bent.push([from, between, to]);
+        }
     }
     clip::turn_left(polygon);
 }

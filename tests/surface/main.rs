@@ -11,6 +11,7 @@ mod bodies;
 mod both_ways;
 mod choices;
 mod corners;
+mod curved_edges;
 mod facets;
 mod fields;
 mod geometry;
