@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use crate::error::{Argument, Error, MOST_NAMED, index};
-use crate::linalg::row_elimination::{Terms, gathered, replaced};
+use crate::linalg::row_elimination::{Terms, gathered, largest, replaced};
+use crate::linalg::tolerances::ROUNDING;
 
 /// `u[dependent] = sum coefficient * u[dof]`, equation by equation; one without terms says `u[dependent] = 0`.
 ///
@@ -149,7 +150,10 @@ impl Dependents {
                     "equation {equation}: there is no degree of freedom {dof}, and no equation gives it"
                 ));
             }
-            let terms = gathered(found.replaced(equations.terms(k).collect()));
+            let mut terms = gathered(found.replaced(equations.terms(k).collect()));
+            // The cosine of a right angle, or the arm of a node on the axis, is the rounding of zero and no number of its own.
+            let least = ROUNDING * largest(&terms);
+            terms.retain(|(_, a)| a.abs() > least);
             found.terms.insert(equations.dependent[k], terms);
         }
         Ok(found)

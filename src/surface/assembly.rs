@@ -19,7 +19,8 @@ pub(super) fn pair_of_row(
     (node, row): (usize, Row),
     normal: Vector3,
 ) -> SurfacePair {
-    let (area, normal) = (row.area, planes.turned(node, normal));
+    let (area, moving) = (row.area, 1.0 - row.held / row.area);
+    let normal = planes.turned(node, normal);
     let (nodes, slave_count) = row.into_nodes();
     let point = slave.point(&nodes[..slave_count]);
     let gap = match &nodes[slave_count..] {
@@ -42,6 +43,7 @@ pub(super) fn pair_of_row(
         gap,
         measured_gap: gap,
         area,
+        moving,
     }
 }
 

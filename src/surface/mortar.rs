@@ -7,18 +7,17 @@
 //! in space Popp, Gitterle, Gee and Wall (2010); faces that are covered in part: Cichosz and Bischoff
 //! (2011). As `Σ ψ_j = 1`, forces `F_j = p D_j` load the master's nodes by `p ∫ Nᵐ_k`: the patch test.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::assembly::{pair_of_row, pairs_of_rows};
 use super::candidates::{Candidates, SAME_WAY, SearchFaces};
 use super::control::Edges;
-use super::digits::ON_PLANE;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairing_progress::PairingProgress;
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
+use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
 use super::row::{Row, add_face};
@@ -90,9 +89,8 @@ pub(super) fn pairs<'a>(
         }
         Ok(pair)
     };
-    let held = between_supports(&rows, (slave, settings), pair);
     let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold((settings, &held), &mut rows, on, progress)?;
+    report.folded = rims::fold(settings, &mut rows, on, progress)?;
     pairs_of_rows(slave, rows, report, pair, progress)
 }
 
@@ -117,26 +115,6 @@ fn average(
         }
     }
     Ok(())
-}
-
-/// The nodes whose rows supports hold on both sides where these touch, each as `pair` makes it. A gap between supports stays what it
-/// is: the model refuses a penetration there.
-fn between_supports(
-    rows: &BTreeMap<usize, Row>,
-    (slave, settings): (&Side<'_>, &SurfaceSettings),
-    pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
-) -> BTreeSet<usize> {
-    let near = ON_PLANE * slave.largest_face() / slave.scale;
-    let touch = |node: usize, row: &Row| {
-        pair(node, row.clone()).is_ok_and(|pair| {
-            let apart = settings.gap(pair.gap / slave.scale).abs();
-            apart <= near
-        })
-    };
-    let between = rows
-        .iter()
-        .filter(|(node, row)| row.is_between_supports(**node, settings) && touch(**node, row));
-    between.map(|(node, _)| *node).collect()
 }
 
 impl<'a> Search<'a> {

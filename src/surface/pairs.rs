@@ -38,6 +38,8 @@ pub struct SurfacePair {
     pub measured_gap: f64,
     /// The area that the pair carries: the pressure is the normal force of the row over it.
     pub area: f64,
+    /// The part of it that is not from nodes which supports hold on both sides.
+    pub moving: f64,
 }
 
 /// A slave node with little cover whose row is in those of others.

@@ -4,7 +4,8 @@
 //! and the row holds a node in the air by masters that are far away. Leaving the row out breaks the patch
 //! test. So `D_j d_j` is shared out to rows of nodes of the same faces: `Σ ψ_j = 1` stays, and with it the patch
 //! test. A node whose row has gone takes in none, so that no row goes further than one face; one with hardly any
-//! cover may go two. So does `D_j d_j` of a node that supports hold, beside one that moves, over a master that they hold.
+//! cover may go two. So does `D_j d_j` of a node that supports hold, over masters some of which they hold, up to three faces to nodes
+//! that move.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -54,26 +55,33 @@ const AS_NEAR: f64 = 0.9;
 
 /// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs whose
 /// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others. So are
-/// the rows of nodes that are `held` between supports.
+/// the rows of nodes that supports hold, and most of the masters under them.
 pub(super) fn fold(
-    (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
+    settings: &SurfaceSettings,
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
+    let moving = Moving::new(rows, settings, slave, progress)?;
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
-    let (kept, little) = by_cover((settings, held), rows, (slave, uncovered), progress)?;
+    let (kept, little) = by_cover((settings.rims, &moving), rows, (slave, uncovered), progress)?;
     let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
-    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, progress)?;
+    let layers = if moving.little.is_empty() { 2 } else { NEAR };
+    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), layers, progress)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
         progress.goes_on()?;
         let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
-        let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
-        let near = beside[&node].clone();
-        let further = || near.iter().flat_map(|other| &beside[other]).copied().collect();
-        let far = cover < NEXT_BUT_ONE && !near.iter().any(takes);
-        let around = if far { further() } else { near };
+        let takes = |home: &usize| {
+            homes.get(home).is_some_and(may)
+                && planes.stays(*home, node)
+                && moving.takes(*home, node)
+        };
+        let most = match cover < NEXT_BUT_ONE {
+            true if moving.little.contains(&node) => NEAR,
+            little => 1 + usize::from(little),
+        };
+        let around = around(node, &beside, most, takes);
         if around.iter().any(takes) {
             gone.insert(node, around);
         } else {
@@ -81,7 +89,9 @@ pub(super) fn fold(
         }
     }
     let shares = |(node, around): (usize, BTreeSet<usize>)| {
-        let keeps = |home: &usize| homes.contains_key(home) && planes.stays(*home, node);
+        let keeps = |home: &usize| {
+            homes.contains_key(home) && planes.stays(*home, node) && moving.takes(*home, node)
+        };
         let squared = |home| (rows[&home].middle() - rows[&node].middle()).norm_squared();
         // Two rows may have one middle.
         let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
@@ -99,7 +109,8 @@ pub(super) fn fold(
         let row = rows.remove(&node).expect("each node is folded once");
         let sum: f64 = into.iter().map(|(_, worth)| worth).sum();
         for (home, worth) in into.iter().filter(|(_, worth)| *worth > 0.0) {
-            rows.get_mut(home).expect("a home keeps its row").take_in(&row, worth / sum);
+            let home = rows.get_mut(home).expect("a home keeps its row");
+            home.take_in((&row, moving.of(node)), worth / sum);
         }
         progress.goes_on()?;
         let distance = (slave.position(into[0].0) - slave.position(node)).norm();
@@ -108,25 +119,63 @@ pub(super) fn fold(
     gone.into_iter().map(fold).collect()
 }
 
-/// The nodes with enough cover, and those with little, the most first. What is `held` on both sides is as without cover, where a node
-/// beside it moves: a side that they hold wholly is an obstacle, whose rows are right.
+/// What supports leave of rows.
+struct Moving {
+    /// The parts that move, of rows that do not wholly. `None`: nothing does, and the pair rests.
+    parts: HashMap<usize, Option<f64>>,
+    /// Nodes that are held, as are some of the masters of their rows, beside nodes that move: their rows would hold masters by the support
+    /// beside these. Where all is held around, the slave is an obstacle, and such rows are right if enough of them moves.
+    little: BTreeSet<usize>,
+}
+
+impl Moving {
+    fn new(
+        rows: &BTreeMap<usize, Row>,
+        settings: &SurfaceSettings,
+        slave: &Side<'_>,
+        progress: &mut PairingProgress<'_, '_>,
+    ) -> Result<Moving, Error> {
+        let parts = rows.iter().map(|(node, row)| (*node, row.moving(*node, settings)));
+        let parts: HashMap<usize, Option<f64>> =
+            parts.filter(|(_, part)| *part != Some(1.0)).collect();
+        let some = || parts.iter().filter_map(|(node, part)| Some((*node, (*part)?)));
+        let beside = beside((slave, &[]), some().map(|(node, _)| node), NEAR, progress)?;
+        let moves_most = |part: &Option<f64>| part.is_some_and(|part| part >= LEAST_OF_MANY);
+        let is_most =
+            |node: &usize| rows.contains_key(node) && parts.get(node).is_none_or(moves_most);
+        let is_little = |&(node, part): &(usize, f64)| {
+            let moves = |other: &usize| !settings.is_supported(*other, rows[&node].normal);
+            let is_little = part < LEAST_OF_MANY || beside[&node].iter().any(moves);
+            is_little && around(node, &beside, NEAR, is_most).iter().any(is_most)
+        };
+        let little = some().filter(is_little).map(|(node, _)| node).collect();
+        Ok(Moving { parts, little })
+    }
+
+    /// The part of a row that moves.
+    fn of(&self, node: usize) -> f64 {
+        self.parts.get(&node).map_or(1.0, |part| part.unwrap_or(0.0).clamp(0.0, 1.0))
+    }
+
+    /// True if a home may take in the row of a node.
+    fn takes(&self, home: usize, node: usize) -> bool {
+        !self.little.contains(&node) || self.of(home) >= LEAST_OF_MANY
+    }
+}
+
+/// The nodes with enough cover, and those with little, the most first. Rows of which little moves are as without cover.
 fn by_cover(
-    (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
+    (rims, moving): (Rims, &Moving),
     rows: &BTreeMap<usize, Row>,
     on: (&Side<'_>, &[usize]),
     progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(Vec<usize>, Vec<Weight>), Error> {
     let (mut enough, mut little) = (Vec::new(), Vec::new());
-    let least = least_covers(settings.rims, rows, on, progress)?;
-    let beside = beside((on.0, &[]), held.iter().copied(), 1, progress)?;
-    let moves_beside = |node: &usize, row: &Row| {
-        let moves = |other: &usize| !settings.is_supported(*other, row.normal);
-        beside.get(node).is_some_and(|near| near.iter().any(moves))
-    };
+    let least = least_covers(rims, rows, on, progress)?;
     for (&node, row) in rows {
         progress.goes_on()?;
         match least.get(&node).is_none_or(|least| row.cover() >= *least) {
-            true if moves_beside(&node, row) => little.push((node, 0.0)),
+            true if moving.little.contains(&node) => little.push((node, 0.0)),
             true => enough.push(node),
             false => little.push((node, row.cover())),
         }
@@ -208,6 +257,23 @@ fn holders(
         if found.len() == slave.dim {
             break;
         }
+    }
+    found
+}
+
+/// The nodes within one face of a node, or within so many more that some are `wanted`, up to the `most`.
+fn around(
+    node: usize,
+    beside: &HashMap<usize, BTreeSet<usize>>,
+    most: usize,
+    wanted: impl Fn(&usize) -> bool,
+) -> BTreeSet<usize> {
+    let mut found = beside[&node].clone();
+    for _ in 1..most {
+        if found.iter().any(&wanted) {
+            break;
+        }
+        found = found.iter().flat_map(|other| &beside[other]).copied().collect();
     }
     found
 }

@@ -30,6 +30,8 @@ pub(super) struct Row {
     pub(super) is_large: bool,
     /// `D_j` times the middle of its function over the covered part.
     middle: Vector3,
+    /// The part of `D_j` that supports hold on both sides: it changes no gap.
+    pub(super) held: f64,
 }
 
 impl Row {
@@ -44,10 +46,11 @@ impl Row {
         self.middle / self.area
     }
 
-    /// Adds a share of the row of a neighbour.
-    pub(super) fn take_in(&mut self, other: &Row, share: f64) {
+    /// Adds a share of the row of a neighbour, a part of which moves.
+    pub(super) fn take_in(&mut self, (other, moving): (&Row, f64), share: f64) {
         let part = |(node, weight): &Weight| (*node, share * weight);
         self.area += share * other.area;
+        self.held += share * other.area * (1.0 - moving);
         self.normal += share * other.normal;
         self.gap += share * other.gap;
         self.weights.extend(other.weights.iter().map(part));
@@ -58,13 +61,23 @@ impl Row {
         self.weights.iter().copied().filter(|(node, _)| node & MASTER == 0)
     }
 
-    /// True for the row of a node that supports hold along its normal, as they do a master that it names.
-    pub(super) fn is_between_supports(&self, node: usize, settings: &SurfaceSettings) -> bool {
+    /// The part of the row that supports do not hold along its normal: all of it if its node moves, and otherwise the weights of the
+    /// masters that do. `None`: it names no node that moves.
+    pub(super) fn moving(&self, node: usize, settings: &SurfaceSettings) -> Option<f64> {
         let is_held = |node: usize| settings.is_supported(node, self.normal);
+        if !is_held(node) {
+            return Some(1.0);
+        }
         let is_named = |weight: f64| weight.abs() > ROUNDING * self.area;
-        let mut masters =
-            self.weights.iter().filter(|(node, w)| node & MASTER != 0 && is_named(*w));
-        is_held(node) && masters.any(|(node, _)| is_held(node & !MASTER))
+        let masters = self.weights.iter().filter(|(node, w)| node & MASTER != 0 && is_named(*w));
+        let (held, free): (Vec<Weight>, Vec<Weight>) =
+            masters.partition(|(node, _)| is_held(node & !MASTER));
+        let part = |free: Vec<Weight>| free.iter().map(|(_, weight)| weight / self.area).sum();
+        if held.is_empty() {
+            Some(1.0)
+        } else {
+            Some(free).filter(|free| !free.is_empty()).map(part)
+        }
     }
 
     /// Adds master nodes.

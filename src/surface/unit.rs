@@ -42,6 +42,8 @@ impl Unit {
             length(&mut pair.gap);
             pair.measured_gap = pair.gap;
             pair.gap = settings.gap(pair.gap);
+            // Of a penetration where supports hold both sides nothing is left to the others.
+            pair.gap *= if pair.gap < 0.0 { pair.moving } else { 1.0 };
             area(&mut pair.area);
             if !pair.area.is_normal() {
                 let message = format!(

@@ -94,15 +94,19 @@ impl WithImages {
         [self.slave.on(slave), master]
     }
 
-    /// The supports of nodes along axes, with those of their images behind.
+    /// The supports of nodes along axes, with those of their images. Those of second boundaries are images too: there the host has
+    /// equations and no supports.
     pub(super) fn with_images(&self, settings: &SurfaceSettings, dim: usize) -> SurfaceSettings {
         let images = &self.numbering.images;
         let is_held = |(image, along): &(usize, usize)| {
-            let (place, node) = images.at(*image);
-            settings.is_supported(node, images.motion(place).turn.transpose() * axis(*along))
+            let (node, motion) = images.home(*image);
+            settings.is_supported(node, motion.turn.transpose() * axis(*along))
         };
-        let places = images.numbers().flat_map(|image| (0..dim).map(move |along| (image, along)));
-        let supports = settings.supports.iter().copied().chain(places.filter(is_held)).collect();
+        let all = images.on_second().keys().copied().chain(images.numbers());
+        let places = all.flat_map(|image| (0..dim).map(move |along| (image, along)));
+        let supports = settings.supports.iter().copied().chain(places.filter(is_held));
+        let mut supports: Vec<(usize, usize)> = supports.collect();
+        supports.sort_unstable();
         SurfaceSettings { supports, ..settings.clone() }
     }
 

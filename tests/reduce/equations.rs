@@ -88,6 +88,47 @@ fn three_hosts_have_one_model() {
     assert!(independent > 100, "{independent}");
 }
 
+/// Coefficients of the size of rounding, as of turns by right angles, say that a displacement moves another one by nothing: rows over
+/// many nodes, some of which stand on a plane, have the stiffness and the loads of a host that has eliminated them. To 1e-9, as above.
+#[test]
+fn coefficients_of_rounding_move_nothing() {
+    for (seed, small) in (0..100).flat_map(|seed| [1e-17, 6e-17, 1e-12, 1e-9].map(|a| (seed, a))) {
+        let rng = &mut Rng::with_seed(seed);
+        let (dim, nodes, pairs) = (rng.usize(2..=3), rng.usize(6..=9), rng.usize(1..=4));
+        let on_plane = rng.usize(1..=nodes - pairs);
+        let across =
+            |node: usize| (dim * node, vec![(dim * node + 1, small * uniform(rng, 0.5, 1.0))]);
+        let equations = (0..on_plane).map(across).collect();
+        let mut row = || {
+            let weights = vector(rng, nodes);
+            let of_node = |(node, weight): (usize, f64)| {
+                let along = move |axis: usize| {
+                    let mut unit = vec![0.0; dim];
+                    unit[axis] = weight;
+                    (dim * node + axis, unit)
+                };
+                (0..dim).map(along)
+            };
+            weights.into_iter().enumerate().flat_map(of_node).collect()
+        };
+        let rows = (0..pairs).map(|_| row()).collect();
+        let (stiffness, normals) = (springs(rng, dim * nodes), vector(rng, dim * pairs));
+        let fixed = vec![];
+        let structure =
+            Constrained { dim, stiffness, fixed, equations, rows, normals, tangents: None };
+        let settings = Settings::default();
+        let [whole, reduced] = [&structure, &structure.reduced()].map(|host| host.whole(&settings));
+        let context = format!("seed {seed}, {small:e}");
+        assert!(whole.dependent_pairs().is_empty(), "{context}");
+        close(whole.stiffness(), reduced.stiffness(), 1e-9, &context);
+        let load = vector(rng, structure.size());
+        let [own, other] = [whole.condensed_load(&load, None), {
+            reduced.condensed_load(&structure.gathered(&load), None)
+        }];
+        close(&own.unwrap(), &other.unwrap(), 1e-9, &context);
+    }
+}
+
 /// Solutions balance in the whole structure, whose forces are found without the library; condensed and in full
 /// space. To 1e-9, a thousand times the tolerance.
 #[test]

@@ -88,15 +88,17 @@ pub(super) fn general_rows(
 }
 
 /// The unit of each degree of freedom's coefficients: the largest of them where it is that of an angle, whose coefficients are
-/// arms. Small weights of a node in all rows are no unit of their own.
+/// arms. Small weights of a node in all rows are no unit of their own, and a small coefficient of a displacement in an equation is
+/// none beside its weights.
 fn units(rows: &Rows, count: usize, dependents: &Dependents) -> Vec<f64> {
     // Coefficients of displacements are 1 at most; those this much larger or smaller are of another unit.
     let other = 1e4;
-    let mut units = dependents.largest_coefficients(count);
-    units.iter_mut().filter(|unit| **unit > 1.0 / other).for_each(|unit| *unit = 1.0);
-    let of_rows = rows.equations.iter().flatten().filter(|(_, a)| a.abs() > other);
-    of_rows.for_each(|&(k, a)| units[k] = units[k].max(a.abs()));
-    units
+    let mut largest = dependents.largest_coefficients(count);
+    for &(k, a) in rows.equations.iter().flatten() {
+        largest[k] = largest[k].max(a.abs());
+    }
+    let is_of_length = |a: f64| (1.0 / other..=other).contains(&a);
+    largest.into_iter().map(|a| if is_of_length(a) { 1.0 } else { a }).collect()
 }
 
 /// Equation `axis` of a pair in terms of others, if it follows from them.
