@@ -63,7 +63,7 @@ impl OperatorReduction {
             return Ok(reduction);
         }
         let probes = [probe(size, 1), probe(size, 2)];
-        let products = checked_images(("K_rel", agrees), &probes, |x| reduction.product(x))?;
+        let products = checked_images(("K_rel", agrees), &probes, |x| (&reduction).product(x))?;
         if reduction.operator.has_inverse() {
             let images = checked_images(("W", agrees), &probes, |x| reduction.by_inverse(x))?;
             for (x, image) in probes.iter().zip(&images) {
@@ -110,7 +110,7 @@ impl OperatorReduction {
         let reduction = Self::unchecked((operator, true), pairs, (places, own));
         if !units.is_empty() {
             let probes = [probe(units.len(), 1), probe(units.len(), 2)];
-            checked_images(("A", AGREES), &probes, |x| reduction.product(x))?;
+            checked_images(("A", AGREES), &probes, |x| (&reduction).product(x))?;
         }
         Ok(reduction)
     }
@@ -124,10 +124,6 @@ impl OperatorReduction {
         OperatorReduction { operator, dim, pairs, is_preconditioned, places, units, held, last }
     }
 
-    fn inner(&self) -> usize {
-        self.places.len() - self.dim * self.pairs
-    }
-
     /// A vector here as the host has it.
     fn to_host(&self, x: &[f64]) -> Vec<f64> {
         let mut host = vec![0.0; x.len()];
@@ -137,11 +133,6 @@ impl OperatorReduction {
 
     fn of_host(&self, host: &[f64]) -> Vec<f64> {
         self.places.iter().map(|&place| host[place]).collect()
-    }
-
-    fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
-        let ([name, _], x) = (self.names(), self.to_host(x));
-        Ok(self.of_host(&called(name, x.len(), |y| self.operator.stiffness(&x, y))?))
     }
 
     fn by_inverse(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
@@ -266,7 +257,7 @@ impl Reduction for OperatorReduction {
 
 impl StiffnessOperator for &OperatorReduction {
     fn inner(&self) -> usize {
-        OperatorReduction::inner(self)
+        self.places.len() - self.dim * self.pairs
     }
 
     fn units(&self) -> &[f64] {
@@ -274,7 +265,8 @@ impl StiffnessOperator for &OperatorReduction {
     }
 
     fn product(&self, x: &[f64]) -> Result<Vec<f64>, Error> {
-        OperatorReduction::product(self, x)
+        let ([name, _], x) = (self.names(), self.to_host(x));
+        Ok(self.of_host(&called(name, x.len(), |y| self.operator.stiffness(&x, y))?))
     }
 
     fn is_sparse(&self) -> bool {
