@@ -23,7 +23,7 @@ use crate::problem::{ContactProblem, FreeBlock};
 /// pair stands for its components.
 pub fn is_free(problem: &ContactProblem<'_>, r: &[f64]) -> bool {
     let internal = problem.internal_force(r);
-    let (stated, condensed) = (problem.rounding_of_energy(), FREE * CONDENSATION);
+    let (stated, condensed) = (problem.relation().rounding, FREE * CONDENSATION);
     let own = energy(problem.relation(), r, &internal);
     if own <= stated && has_no_forces(r, &internal, stated, &problem.unit_roots()) {
         return true;
@@ -63,6 +63,6 @@ fn shows_condensation(problem: &ContactProblem<'_>) -> bool {
         let parts = shares.iter().copied().zip(&motions);
         let least = combination(problem.unknowns(), parts);
         let internal = problem.internal_force(&least);
-        energy(problem.relation(), &least, &internal) < -problem.rounding_of_energy()
+        energy(problem.relation(), &least, &internal) < -problem.relation().rounding
     })
 }

@@ -10,7 +10,7 @@ use super::surroundings::in_host;
 use crate::error::Error;
 use crate::linalg::tolerances::AGREES;
 use crate::model::Model;
-use crate::reduce::{Held, HostOperator, PreconditionedOperator};
+use crate::reduce::{Held, HostOperator};
 
 /// Your product, y = K_rel x or y = W x, with N entries. Returns 0; another number ends the call of
 /// the library, whose sentence tells it. As a progress callback it must return, and not call this
@@ -120,10 +120,6 @@ impl Functions {
     }
 }
 
-fn numbers(held: &[bool]) -> Vec<i32> {
-    held.iter().map(|held| i32::from(*held)).collect()
-}
-
 impl HostOperator for Functions {
     fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         self.product(self.0.stiffness, x, y)
@@ -145,26 +141,18 @@ impl HostOperator for Functions {
         self.0.held.is_some()
     }
 
-    fn held(&self, held: &[bool], changed: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        let (held, changed) = (numbers(held), i32::from(changed));
-        self.asked(self.0.held, |solve, user| {
-            // SAFETY: as above; `held` has N entries too.
-            unsafe { solve(user, held.as_ptr(), changed, x.as_ptr(), y.as_mut_ptr()) }
-        })
-    }
-}
-
-impl PreconditionedOperator for Functions {
-    fn product(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
-        self.product(self.0.stiffness, x, y)
-    }
-
-    fn precondition(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &Held<'_>, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         let (springs, changed) = (held.springs.as_ptr(), i32::from(held.changed));
-        let held = numbers(held.components);
+        let held: Vec<i32> = held.components.iter().map(|held| i32::from(*held)).collect();
+        let (held, x, y) = (held.as_ptr(), x.as_ptr(), y.as_mut_ptr());
+        if self.0.precondition.is_none() {
+            // SAFETY: as above; `held` has N entries too.
+            return self
+                .asked(self.0.held, |solve, user| unsafe { solve(user, held, changed, x, y) });
+        }
         self.asked(self.0.precondition, |solve, user| {
             // SAFETY: as above; `held` and `springs` have as many entries as the header says.
-            unsafe { solve(user, held.as_ptr(), springs, changed, r.as_ptr(), z.as_mut_ptr()) }
+            unsafe { solve(user, held, springs, changed, x, y) }
         })
     }
 }

@@ -232,8 +232,7 @@ impl SignoriniSurfaceSettings {
     /// The degrees of freedom that supports hold.
     fn fixed(&self, at: At<'_>, base: i64) -> Outcome<Vec<usize>> {
         let count = at.field("n_fixed").size(self.n_fixed)?;
-        let fixed = at.field("fixed").required(self.fixed, count)?;
-        at.field("fixed").shifted(fixed, base)
+        at.field("fixed").indices(self.fixed, count, base)
     }
 
     /// The true shape of a side.

@@ -35,8 +35,8 @@ impl<'p, R: Relation> Contact<'p, R> {
         };
         let pairs: Vec<PairLaw> = (0..problem.pairs()).map(pair).collect();
         let mut load = Cow::Borrowed(problem.relation().load());
-        for (pair, law) in pairs.iter().enumerate().filter(|(_, law)| law.tension() > 0.0) {
-            load.to_mut()[problem.dim() * pair] += law.tension();
+        for (pair, law) in pairs.iter().enumerate().filter(|(_, law)| law.tension > 0.0) {
+            load.to_mut()[problem.dim() * pair] += law.tension;
         }
         Contact { problem, pairs, load }
     }
@@ -65,7 +65,7 @@ impl<'p, R: Relation> Contact<'p, R> {
     /// Adds the tension of each pair to its normal force: `F` from `F - a`.
     pub fn add_tension(&self, force: &mut [f64]) {
         for (law, normal) in self.pairs.iter().zip(force.iter_mut().step_by(self.dim())) {
-            *normal += law.tension();
+            *normal += law.tension;
         }
     }
 
@@ -131,7 +131,7 @@ impl<'p, R: Relation> Contact<'p, R> {
 
     /// The pairs that are tied.
     pub fn ties(&self) -> impl Iterator<Item = usize> {
-        (0..self.pairs.len()).filter(|&pair| self.pairs[pair].is_tied())
+        (0..self.pairs.len()).filter(|&pair| self.pairs[pair].tied)
     }
 
     /// The displacements nearest to `d` that do not penetrate.
@@ -183,7 +183,7 @@ impl<'p, R: Relation> Contact<'p, R> {
 
     /// The bounds of all pairs.
     pub fn bounds(&self) -> impl Iterator<Item = Bound> {
-        self.pairs.iter().map(PairLaw::bound)
+        self.pairs.iter().map(|law| law.bound)
     }
 
     /// Returns `true` if nothing but a reference slip can cause forces.

@@ -20,13 +20,14 @@ pub struct PairLaw {
     /// `+inf`: no obstacle.
     pub(super) gap: f64,
     pub(super) slip0: [f64; 2],
-    pub(super) bound: Bound,
-    /// `a`, a force, at least 0.
+    /// The bound on the tangential force, or on its gauge.
+    pub(crate) bound: Bound,
+    /// `a`, the tension that the pair may carry, a force, at least 0.
     pub(super) tension: f64,
     /// `None`: isotropic.
     pub(super) ellipse: Option<Ellipse>,
     /// `v = 0` whatever the force: no piece but stick, and no bound.
-    pub(super) tied: bool,
+    pub(crate) tied: bool,
     pub(super) k_n: f64,
     pub(super) k_t: f64,
 }
@@ -57,21 +58,6 @@ impl PairLaw {
     /// Ties the pair to its reference, if there is an obstacle.
     pub fn with_tie(self) -> Self {
         PairLaw { tied: self.has_obstacle(), ..self }
-    }
-
-    /// Returns `true` if the pair is tied.
-    pub fn is_tied(&self) -> bool {
-        self.tied
-    }
-
-    /// The tension that the pair may carry, a force.
-    pub fn tension(&self) -> f64 {
-        self.tension
-    }
-
-    /// The bound on the tangential force, or on its gauge.
-    pub fn bound(&self) -> Bound {
-        self.bound
     }
 
     /// Gives the pair another bound.

@@ -6,8 +6,8 @@
 //! they are they would pass for a stiffness, or for a negative one.
 
 use super::sparse_matrix::{
-    Columns, Csc, OutOfMemory, absolute, both, diagonal, diagonals, entries, entries_of,
-    from_entries, product, transposed, value_at,
+    Columns, Csc, OutOfMemory, absolute, both, diagonals, entries, entries_of, from_entries,
+    product, scale_diagonal, transposed, value_at,
 };
 use super::tolerances::ROUNDING;
 use super::watched::GoesOn;
@@ -23,12 +23,7 @@ pub fn congruence(
     columns: usize,
     goes_on: GoesOn<'_>,
 ) -> Result<Option<(Csc, Csc)>, OutOfMemory> {
-    for j in 0..lower.ncols() {
-        if diagonal(&lower, j).is_some() {
-            let place = lower.symbolic().col_ptr()[j];
-            lower.val_mut()[place] *= 0.5;
-        }
-    }
+    (0..lower.ncols()).for_each(|j| scale_diagonal(&mut lower, j, 0.5));
     let half = product(&lower, w)?;
     let unresisted = Unresisted::new(&lower, w, &half, columns)?;
     drop(lower);

@@ -21,12 +21,7 @@ pub fn cholesky_work(n: usize) -> f64 {
     (n as f64).powi(3) / 3.0
 }
 
-/// Operations of the inverse of a symmetric matrix with `n` rows, of its Cholesky factor.
-pub fn inverse_work(n: usize) -> f64 {
-    2.0 * cholesky_work(n)
-}
-
-/// Operations of an `LU` factorisation of `n` rows.
+/// Operations of an `LU` factorisation of `n` rows; of the inverse by Cholesky's factor, [`Factor::inverse`], too.
 pub fn lu_work(n: usize) -> f64 {
     2.0 * cholesky_work(n)
 }
@@ -35,8 +30,10 @@ pub fn lu_work(n: usize) -> f64 {
 pub struct Factor {
     factors: Columns,
     kind: Kind,
-    least_pivot: f64,
-    sign: i8,
+    /// The least pivot of Cholesky's method, 1 if there is none; 0 of other factors.
+    pub least_pivot: f64,
+    /// Sign of the determinant.
+    pub sign: i8,
 }
 
 enum Kind {
@@ -130,22 +127,8 @@ impl Factor {
             columns.as_mut().diagonal_mut().fill(1.0);
             solve_cholesky(self.factors.as_ref().submatrix(first, first, rows, rows), columns);
         }
-        for j in 0..n {
-            for i in j + 1..n {
-                inverse[j + n * i] = inverse[i + n * j];
-            }
-        }
+        dense::mirror(&mut inverse, n);
         Ok(inverse)
-    }
-
-    /// The least pivot of Cholesky's method, 1 if there is none; 0 of other factors.
-    pub fn least_pivot(&self) -> f64 {
-        self.least_pivot
-    }
-
-    /// Sign of the determinant.
-    pub fn sign(&self) -> i8 {
-        self.sign
     }
 }
 

@@ -64,6 +64,14 @@ pub fn diagonal(lower: &Csc, j: usize) -> Option<f64> {
     entries_of(lower, j).next().filter(|(i, _)| *i == j).map(|(_, value)| value)
 }
 
+/// Multiplies the diagonal entry of column `j` of a lower triangle, if it is stored.
+pub fn scale_diagonal(lower: &mut Csc, j: usize, factor: f64) {
+    if diagonal(lower, j).is_some() {
+        let place = lower.symbolic().col_ptr()[j];
+        lower.val_mut()[place] *= factor;
+    }
+}
+
 /// The diagonal of a lower triangle, 0 where it is not stored.
 pub fn diagonals(lower: &Csc) -> impl Iterator<Item = f64> {
     (0..lower.ncols()).map(|j| diagonal(lower, j).unwrap_or_default())

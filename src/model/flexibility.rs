@@ -3,7 +3,9 @@
 
 use super::{LoadCase, Model};
 use crate::error::Error;
-use crate::problem::{FlexibilityForm, FlexibilityProblem, checked_dim, unknowns};
+use crate::problem::{
+    Flexibility, FlexibilityForm, FlexibilityProblem, SparseW, checked_dim, unknowns,
+};
 use crate::reduce::{FlexibilityReduction, SparseMatrix};
 use crate::solve::largest_island;
 
@@ -14,7 +16,8 @@ impl Model {
     /// As [`FlexibilityProblem::from_flexibility`] of the matrix.
     pub fn flexibility(dim: usize, pairs: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        let reduction = Box::new(FlexibilityReduction::dense(size, w, ld)?);
+        let entries = Flexibility::checked_matrix(size, (w, ld))?.entries().collect();
+        let reduction = Box::new(FlexibilityReduction::Dense(size, entries));
         Ok(Model { dim, pairs, reduction })
     }
 
@@ -27,7 +30,8 @@ impl Model {
         pairs: usize,
         w: &SparseMatrix<'_>,
     ) -> Result<Self, Error> {
-        let reduction = Box::new(FlexibilityReduction::sparse(dim, pairs, w)?);
+        let w = SparseW::from_sparse(dim, pairs, w)?;
+        let reduction = Box::new(FlexibilityReduction::Sparse(w));
         Ok(Model { dim, pairs, reduction })
     }
 

@@ -4,9 +4,7 @@
 use super::{LoadCase, Model};
 use crate::error::{Argument, Error, index};
 use crate::problem::{StiffnessOperator, check_count, checked_dim, unknowns};
-use crate::reduce::{
-    HostOperator, OperatorReduction, PreconditionedOperator, PreconditionedReduction,
-};
+use crate::reduce::{HostOperator, OperatorReduction};
 use crate::solve::MatrixFreeCase;
 
 impl Model {
@@ -36,10 +34,10 @@ impl Model {
     ///
     /// # Errors
     /// A dimension that is not 2 or 3; components that are not `dim` for each pair; what
-    /// [`PreconditionedReduction::new`] finds wrong.
+    /// [`OperatorReduction::preconditioned`] finds wrong.
     pub fn preconditioned(
         dim: usize,
-        operator: Box<dyn PreconditionedOperator>,
+        operator: Box<dyn HostOperator>,
         units: &[f64],
         components: &[usize],
     ) -> Result<Self, Error> {
@@ -49,7 +47,8 @@ impl Model {
                 format!("place has {} entries, not {dim} for each pair", components.len());
             return Err(Error::invalid(Argument::Matrix, message));
         }
-        let reduction = Box::new(PreconditionedReduction::new(operator, dim, units, components)?);
+        let reduction =
+            Box::new(OperatorReduction::preconditioned(operator, dim, units, components)?);
         Ok(Model { dim, pairs, reduction })
     }
 

@@ -122,19 +122,9 @@ impl<'a> ContactProblem<'a> {
         self.relation.remembered
     }
 
-    /// Energy of the motion `d` that rounding of the entries of `K` explains, of `|d| . |K| |d|`.
-    pub(crate) fn rounding_of_energy(&self) -> f64 {
-        self.relation.rounding
-    }
-
     /// `K`.
     pub(crate) fn stiffness(&self) -> Matrix<'a> {
         self.relation.matrix
-    }
-
-    /// The largest diagonal entry of `K`.
-    pub(crate) fn largest_stiffness(&self) -> f64 {
-        self.relation.largest
     }
 
     /// The problem of some of the pairs, with the block of `K` and the data that are theirs.

@@ -12,7 +12,8 @@ pub struct FreeBlock<'p> {
     matrix: Matrix<'p>,
     rows: Vec<usize>,
     scale: Vec<f64>,
-    factor: PivotedCholesky,
+    /// Its factor.
+    pub factor: PivotedCholesky,
 }
 
 /// One solution and one step of iterative refinement: the second recovers the digits that the
@@ -46,11 +47,6 @@ impl<'p> FreeBlock<'p> {
     /// Rows that depend on the others.
     pub fn dependent(&self) -> impl Iterator<Item = usize> {
         self.factor.dependent.iter().map(|&i| self.rows[i])
-    }
-
-    /// Operations of [`Self::schur_complement`] on so many rows.
-    pub fn schur_work(&self, kept: usize) -> f64 {
-        self.factor.schur_work(kept)
     }
 
     /// Schur complement of `K` on the rows `kept`, column-major; `None` where `goes_on` says no.

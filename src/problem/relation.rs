@@ -69,11 +69,11 @@ pub struct Stiffness<'a> {
     /// Components of a pair.
     pub(super) dim: usize,
     /// Largest diagonal entry.
-    pub(super) largest: f64,
+    pub(crate) largest: f64,
     /// Energy of a motion that rounding of the entries explains, of `|d| . |K| |d|`.
-    pub(super) rounding: f64,
+    pub(crate) rounding: f64,
     /// A basis of the motions that nothing resists, where it is known better than the rounding of `K` tells; `None`: not.
-    pub(super) free_motions: Option<&'a [Vec<f64>]>,
+    pub(crate) free_motions: Option<&'a [Vec<f64>]>,
     /// The factors that earlier problems with this matrix have left.
     pub(super) remembered: Option<&'a Remembered>,
 }
@@ -98,17 +98,6 @@ impl<'a> Stiffness<'a> {
             free_motions: None,
             remembered: None,
         }
-    }
-
-    /// Tells the relation a basis of the motions that nothing resists; `None`: it is not known.
-    pub(crate) fn with_free_motions(mut self, motions: Option<&'a [Vec<f64>]>) -> Self {
-        self.free_motions = motions;
-        self
-    }
-
-    /// A basis of the motions that nothing resists, if it is known from elsewhere.
-    pub(crate) fn free_motions(&self) -> Option<&'a [Vec<f64>]> {
-        self.free_motions
     }
 
     /// The unit of force per length of component `i`, positive: `K[i, i]`, or one of the pair, or of the

@@ -6,13 +6,8 @@ use crate::linalg::factor::first_not_definite;
 use crate::linalg::matrix::{Matrix, tiles};
 use crate::linalg::tolerances::{AGREES, CONDENSATION, FREE};
 
-/// Returns `true` if entries agree with those across the diagonal, up to rounding relative to it, which is
-/// positive.
-pub(crate) fn is_symmetric(matrix: &Matrix<'_>) -> bool {
-    is_symmetric_beside(matrix, &matrix.diagonal_roots())
-}
-
-/// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`.
+/// Returns `true` if entries agree with those across the diagonal, up to rounding relative to the squares of `root`, which
+/// are those of a positive diagonal or of units.
 pub(crate) fn is_symmetric_beside(matrix: &Matrix<'_>, root: &[f64]) -> bool {
     matrix.agrees_across(root, AGREES, f64::INFINITY)
         || across(matrix, root).all(|Across { apart, scale, .. }| apart <= AGREES * scale)

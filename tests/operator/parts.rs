@@ -1,7 +1,7 @@
 //! A host may offer one of the two kinds of solutions alone, and its own units: pairs that do not feel each other
 //! have closed forms.
 
-use signorini::reduce::HostOperator;
+use signorini::reduce::{self, HostOperator};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 /// Normal and tangential stiffness of every pair.
@@ -53,7 +53,8 @@ impl HostOperator for Held {
         true
     }
 
-    fn held(&self, held: &[bool], _changed: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &reduce::Held<'_>, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        let held = held.components;
         (0..x.len()).for_each(|i| y[i] = if held[i] { 0.0 } else { x[i] / STIFFNESS[i % 2] });
         Ok(())
     }
@@ -116,7 +117,8 @@ fn what_a_host_agrees_to_is_its_own_accuracy() {
 #[test]
 fn what_is_not_offered_fails() {
     let (x, y) = ([1.0; 6], &mut [0.0; 6]);
-    assert!(!Inverse.has_held() && Inverse.held(&[false; 6], true, &x, y).is_err());
+    let nothing = reduce::Held { components: &[false; 6], springs: &[], changed: true };
+    assert!(!Inverse.has_held() && Inverse.held(&nothing, &x, y).is_err());
     assert!(!Held.has_inverse() && Held.inverse(&x, y).is_err());
 }
 

@@ -8,7 +8,7 @@ use crate::common::blocks::block;
 use crate::common::brick::{Support, Vector};
 use crate::common::dense::{difference, largest};
 use crate::common::mesh::{Mesh, Pairs, Stiffness, steps};
-use signorini::reduce::{Held, PreconditionedOperator};
+use signorini::reduce::{Held, HostOperator};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 /// Faults of a host.
@@ -54,8 +54,8 @@ impl Host {
     }
 }
 
-impl PreconditionedOperator for Host {
-    fn product(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+impl HostOperator for Host {
+    fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         y.fill(0.0);
         for (column, x) in self.columns.iter().zip(x) {
             column.iter().for_each(|(i, a)| y[*i] += a * x);
@@ -67,7 +67,7 @@ impl PreconditionedOperator for Host {
     }
 
     /// Gauss and Seidel, forwards and backwards, in single precision: no linear map.
-    fn precondition(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
         let now = (held.components.to_vec(), held.springs.to_vec());
         let mut last = self.last.lock().unwrap();
         assert_eq!(held.changed, last.as_ref() != Some(&now), "what is said to have changed");

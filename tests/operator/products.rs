@@ -10,7 +10,7 @@ use crate::common::dense::{difference, largest};
 use crate::common::measures::{eta, rounding};
 use crate::common::mesh::{Mesh, Pairs, steps};
 use crate::common::problems::{Law, definite, loaded, uniform};
-use signorini::reduce::HostOperator;
+use signorini::reduce::{Held, HostOperator};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status};
 
 /// The calls that the host has answered, and after how many products it fails (negative: never).
@@ -155,7 +155,8 @@ impl HostOperator for Host {
         self.holds
     }
 
-    fn held(&self, held: &[bool], changed: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &Held<'_>, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        let (held, changed) = (held.components, held.changed);
         self.asked.solves.fetch_add(1, Relaxed);
         let mut factor = self.factor.lock().unwrap();
         if changed {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use crate::common::dense::{Elimination, product};
 use fastrand::Rng;
-use signorini::reduce::{Held, PreconditionedOperator};
+use signorini::reduce::{Held, HostOperator};
 use signorini::{FrictionLaw, LoadCase, Model, Monitor, Settings, Status};
 
 /// A dense matrix, whose first unknowns are the components of pairs in the plane, with solutions by elimination.
@@ -23,14 +23,14 @@ impl Host {
     }
 }
 
-impl PreconditionedOperator for Host {
-    fn product(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+impl HostOperator for Host {
+    fn stiffness(&self, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
         self.asked_with(x);
         y.copy_from_slice(&product(&self.matrix, x));
         Ok(())
     }
 
-    fn precondition(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &Held<'_>, r: &[f64], z: &mut [f64]) -> Result<(), i32> {
         self.asked_with(r);
         let free: Vec<usize> =
             (0..r.len()).filter(|&i| !held.components.get(i).is_some_and(|held| *held)).collect();

@@ -1,7 +1,7 @@
 //! Models of each kind tell of themselves: forces on the host's nodes, components that supports fix, what is
 //! not symmetric, prescribed values that are alike, and the host's functions that it does not give.
 
-use signorini::reduce::{ContactPairs, HostOperator, Indices, SparseMatrix, Triangle};
+use signorini::reduce::{self, ContactPairs, HostOperator, Indices, SparseMatrix, Triangle};
 use signorini::{
     Argument, Error, FrictionLaw, LoadCase, Model, Monitor, Settings, Solution, Status,
 };
@@ -38,7 +38,8 @@ impl HostOperator for Held {
         true
     }
 
-    fn held(&self, held: &[bool], _: bool, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+    fn held(&self, held: &reduce::Held<'_>, x: &[f64], y: &mut [f64]) -> Result<(), i32> {
+        let held = held.components;
         for (i, y) in y.iter_mut().enumerate() {
             *y = if held[i] { 0.0 } else { x[i] / self.0[i] };
         }
@@ -88,7 +89,8 @@ fn pairs_on_springs_stick_at_their_reference_slip() {
     assert!(models[1].stiffness().is_empty() && models[2].stiffness().is_empty());
     // A function that is not given fails, if it is called.
     assert!(!Springs(vec![]).has_held() && !Held(vec![]).has_inverse());
-    assert!(Springs(vec![]).held(&[], true, &[], &mut []).is_err());
+    let nothing = reduce::Held { components: &[], springs: &[], changed: true };
+    assert!(Springs(vec![]).held(&nothing, &[], &mut []).is_err());
     assert!(Held(vec![]).inverse(&[], &mut []).is_err());
 }
 

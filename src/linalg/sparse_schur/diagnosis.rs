@@ -5,7 +5,7 @@ use super::numeric::{Numeric, factorised};
 use super::schedule::Schedule;
 use super::solve;
 use super::structure::Structure;
-use crate::linalg::sparse_matrix::{Csc, symmetric_magnitude, symmetric_times};
+use crate::linalg::sparse_matrix::{Csc, scale_diagonal, symmetric_magnitude, symmetric_times};
 use crate::linalg::tolerances::{
     INVERSE_ITERATIONS, NULL_VECTOR, REGULARISATION, SUSPICIOUS_PIVOT,
 };
@@ -79,10 +79,4 @@ fn unit_vector(size: usize, place: usize) -> Vec<f64> {
     let mut unit = vec![0.0; size];
     unit[place] = 1.0;
     unit
-}
-
-/// Multiplies the diagonal entry of column `j`, which is stored first.
-fn scale_diagonal(matrix: &mut Csc, j: usize, factor: f64) {
-    let place = matrix.symbolic().col_ptr()[j];
-    matrix.val_mut()[place] *= factor;
 }

@@ -99,7 +99,7 @@ fn subtrees(
         let end = source.structure.values(panels.end - 1).end;
         let (_, from) = rest.split_at_mut(begin - at);
         let (values, after) = from.split_at_mut(end - begin);
-        operations += panels.clone().map(|s| source.schedule.operations(s)).sum::<f64>();
+        operations += source.schedule.of_panel[panels.clone()].iter().sum::<f64>();
         all.push(Mutex::new(Subtree { panels: panels.clone(), values, weakest: Ok(None) }));
         (rest, at) = (after, end);
     }

@@ -44,7 +44,7 @@ pub fn by_all_threads(
         blocks.push(Mutex::new((rows, block)));
         below = rest;
     }
-    let operations = source.schedule.operations(number);
+    let operations = source.schedule.of_panel[number];
     parallel.share(1 + blocks.len(), operations, &|workspace, part| match part.checked_sub(1) {
         None => panel.change_top(locked(&top).as_mut(), &mut workspace.product),
         Some(k) => {
@@ -52,6 +52,6 @@ pub fn by_all_threads(
             panel.change_block(rows.clone(), block.as_mut(), &mut workspace.product);
         }
     })?;
-    let eliminated = panel.eliminate(values, &mut parallel.own_workspace().memory);
+    let eliminated = panel.eliminate(values, &mut locked(&parallel.workspaces[0]).memory);
     eliminated.map_err(|place| Failure::Indefinite(source.structure.order[place]))
 }

@@ -1,7 +1,7 @@
 //! The parts of a factorisation on several threads, their working memory, and their progress.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use faer::dyn_stack::MemBuffer;
 
@@ -18,7 +18,8 @@ pub const ROWS: usize = 512;
 
 /// The working memory of each thread, and the progress that they make together.
 pub struct Parallel<'w> {
-    workspaces: Vec<Mutex<Workspace>>,
+    /// That of the calling thread is the first one.
+    pub workspaces: Vec<Mutex<Workspace>>,
     progress: &'w mut FactorProgress<'w>,
     /// Multiplications of all works, of those that are done, and of those that were when `progress` was asked last.
     all: f64,
@@ -69,11 +70,6 @@ impl<'w> Parallel<'w> {
         share(parts, operations, &work, &mut go_on);
         *done += operations;
         answer
-    }
-
-    /// The working memory of the calling thread, between two works.
-    pub fn own_workspace(&mut self) -> &mut Workspace {
-        self.workspaces[0].get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

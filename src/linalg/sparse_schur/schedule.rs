@@ -21,7 +21,7 @@ pub struct Schedule {
     start: Vec<usize>,
     changes: Vec<Change>,
     /// Multiplications of each panel.
-    of_panel: Vec<f64>,
+    pub of_panel: Vec<f64>,
     /// Multiplications of all, the Schur complement with them.
     pub operations: f64,
     /// Panels that need no others.
@@ -113,11 +113,6 @@ impl Schedule {
     /// The changes of a panel by those before it, in order.
     pub fn changes(&self, panel: usize) -> &[Change] {
         &self.changes[self.start[panel]..self.start[panel + 1]]
-    }
-
-    /// Multiplications that a panel takes.
-    pub fn operations(&self, panel: usize) -> f64 {
-        self.of_panel[panel]
     }
 
     /// Bytes of the schedule.

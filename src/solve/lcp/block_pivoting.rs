@@ -16,7 +16,7 @@ use super::refinement::Task;
 use crate::law::Linearised;
 use crate::law::complementarity::lower_bounds;
 use crate::monitor::{Stop, Watch};
-use crate::problem::symmetric_matrix::is_symmetric;
+use crate::problem::symmetric_matrix::is_symmetric_beside;
 use crate::problem::{BoundedLcp, LcpCertificate};
 use crate::settings::{Method, Settings};
 use crate::solve::pieces::{Before, Equations, REFINEMENTS, SMALL, Systems};
@@ -80,7 +80,7 @@ pub fn lcp(task: Task<'_>) -> Candidate {
         matrix: lcp.matrix,
         q: lcp.q(),
         lower: &zero,
-        symmetric: is_symmetric(&lcp.matrix),
+        symmetric: is_symmetric_beside(&lcp.matrix, &lcp.matrix.diagonal_roots()),
         remembered: None,
     };
     let measure = |x: &[f64]| {

@@ -52,7 +52,7 @@ impl<'p> ContactLcp<'p> {
             let touches = law.has_obstacle();
             let slips = (touches || law.has_friction()) && !is_frictionless;
             if slips {
-                let slope = law.bound().slope;
+                let slope = law.bound.slope;
                 coupling.push(if touches { (normal.len(), slope) } else { (0, 0.0) });
             }
             if touches { &mut normal } else { &mut free }.push(dim * pair);
@@ -74,7 +74,7 @@ impl<'p> ContactLcp<'p> {
         }
         let (mut condensed, mut places) = (None, indices);
         if condenses {
-            monitor.affords(block.schur_work(places.len()))?;
+            monitor.affords(block.factor.schur_work(places.len()))?;
             let schur = block.schur_complement(&places, &mut monitor.asking());
             condensed = Some(PackedSymmetric::new(places.len(), schur.ok_or(INDEFINITE)?));
             places = (0..places.len()).collect();
@@ -115,7 +115,7 @@ impl<'p> ContactLcp<'p> {
                 let coupled =
                     |values: &[f64]| values.get(normal).map_or(0.0, |value| slope * value);
                 let (bound, clamp) = (coupled(&q), coupled(&covering));
-                let offset = self.contact.pairs()[i / 2].bound().offset;
+                let offset = self.contact.pairs()[i / 2].bound.offset;
                 q.push(bound + offset + side * force[*i]);
                 covering.push(clamp + cohesion * root(i));
             }

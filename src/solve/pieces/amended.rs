@@ -172,7 +172,7 @@ impl Amended {
 
     /// Sign of `det J`.
     pub fn sign(&self) -> i8 {
-        self.base.orientation() * self.change.as_ref().map_or(1, |change| change.factor.sign())
+        self.base.orientation() * self.change.as_ref().map_or(1, |change| change.factor.sign)
     }
 
     /// The variables of a symmetric complementarity problem that were basic in the factorised system, and those that are
@@ -201,7 +201,7 @@ impl Amended {
             }
         };
         let schur = Factor::new(became_basic.len(), true, SINGULAR, fill, goes_on);
-        if schur.is_none_or(|schur| first * schur.least_pivot() <= SUSPICIOUS_PIVOT) {
+        if schur.is_none_or(|schur| first * schur.least_pivot <= SUSPICIOUS_PIVOT) {
             return none;
         }
         before.iter().zip(&now).map(|(before, now)| before | now).collect()

@@ -107,12 +107,12 @@ impl System {
 
     /// Sign of the determinant.
     pub fn orientation(&self) -> i8 {
-        self.factor.sign()
+        self.factor.sign
     }
 
     /// As [`Factor::least_pivot`].
     pub fn least_pivot(&self) -> f64 {
-        self.factor.least_pivot()
+        self.factor.least_pivot
     }
 
     /// Number of unknowns.

@@ -84,7 +84,7 @@ impl Others {
     fn of(contact: &Contact<'_>) -> Self {
         let (problem, dim) = (contact.problem(), contact.dim());
         let laws = contact.pairs();
-        let pairs: Vec<usize> = (0..laws.len()).filter(|&pair| !laws[pair].is_tied()).collect();
+        let pairs: Vec<usize> = (0..laws.len()).filter(|&pair| !laws[pair].tied).collect();
         let components: Vec<usize> =
             pairs.iter().flat_map(|pair| dim * pair..dim * (pair + 1)).collect();
         let mut held = vec![0.0; contact.unknowns()];

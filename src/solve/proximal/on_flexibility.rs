@@ -12,7 +12,7 @@
 
 use super::step::ended;
 use crate::law::{Contact, Linearised, PairLaw, Vector, natural_sum, references, scale_roots};
-use crate::linalg::factor::{Factor, cholesky_work, inverse_work, lu_work};
+use crate::linalg::factor::{Factor, cholesky_work, lu_work};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::tolerances::SINGULAR;
 use crate::linalg::vector::{norm, norm_of};
@@ -89,7 +89,7 @@ impl<'c, 'p> OnFlexibility<'c, 'p> {
     /// As long as factorisations take no more operations than a solution on the inverse of `W` would.
     pub fn while_cheap(self) -> Self {
         let n = self.root.len();
-        OnFlexibility { work: BY_INVERSE * (cholesky_work(n) + inverse_work(n)), ..self }
+        OnFlexibility { work: BY_INVERSE * (cholesky_work(n) + lu_work(n)), ..self }
     }
 
     /// Whatever factorisations take.

@@ -283,8 +283,8 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let d = self.springs.displacements(&self.force);
         let load = self.springs.load(&self.force);
         let stiffness = Matrix::new(d.len(), self.springs.stiffness(), d.len().max(1));
-        let relation = Stiffness::new(stiffness, &load, self.contact.dim())
-            .with_free_motions(self.springs.free_motions());
+        let mut relation = Stiffness::new(stiffness, &load, self.contact.dim());
+        relation.free_motions = self.springs.free_motions();
         let means = Means { settings: &settings, ..self.means };
         step(self.contact.problem(), relation, &d, means)
     }

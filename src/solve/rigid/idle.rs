@@ -55,7 +55,7 @@ fn without_force(contact: &Contact<'_>, force: &[f64]) -> Vec<usize> {
 fn is_far(contact: &Contact<'_>, d: &[f64], force: &[f64], unit: impl Fn(usize) -> f64) -> bool {
     let forces = norm_inf(contact.load_with_tension()).max(norm_inf(force));
     // No unit exceeds the largest diagonal entry: nearly all displacements are told by it.
-    if norm_inf(d) * contact.problem().largest_stiffness() <= LARGE * forces {
+    if norm_inf(d) * contact.problem().relation().largest <= LARGE * forces {
         return false;
     }
     let pairs = contact.each(d, force).enumerate();

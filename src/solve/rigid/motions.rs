@@ -18,7 +18,7 @@ impl RigidMotions {
     /// The motions without internal force; `None` if there are none, or no time to find them.
     pub fn of(problem: &ContactProblem<'_>, monitor: &dyn Watch) -> Option<Self> {
         let n = problem.unknowns();
-        if let Some(known) = problem.relation().free_motions() {
+        if let Some(known) = problem.relation().free_motions {
             let motions = Self::spanned(problem, known.iter());
             return Some(motions).filter(|motions| !motions.basis.is_empty());
         }

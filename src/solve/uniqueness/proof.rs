@@ -64,7 +64,7 @@ fn is_contraction(call: &Call<'_>, factor: &mut Factor, coupled: &[usize]) -> bo
         factor.solve(columns);
     }
     let root = contact.problem().unit_roots();
-    let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound().slope).collect();
+    let mu: Vec<f64> = coupled.iter().map(|&pair| contact.pairs()[pair].bound.slope).collect();
     let compliance = |a: usize, b: usize| {
         let (i, j) = (component(a), component(b));
         flexibility[i + n * b] / (root[i] * root[j])

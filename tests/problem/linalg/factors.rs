@@ -54,7 +54,7 @@ fn the_sign_counts_exchanges_in_all_blocks() {
         // A rotation by one place of an even number of rows is odd.
         let sign = if shift % 2 == 0 { 1 } else { -1 };
         let factor = Factor::new(n, false, SINGULAR, fill, &mut || true);
-        assert_eq!(factor.expect("it is regular").sign(), sign);
+        assert_eq!(factor.expect("it is regular").sign, sign);
     }
 }
 
