@@ -56,7 +56,7 @@ impl<'e> Updated<'e> {
         pairs: Vec<Linearised>,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let base = System::new(equations, (pairs.clone(), 1.0), None, SINGULAR_BASIS, goes_on)?;
+        let base = System::new(equations, (pairs.clone(), 1.0), SINGULAR_BASIS, goes_on)?;
         let columns = Columns::none(equations.root.len(), equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })
