@@ -10,7 +10,6 @@ use super::pair_law::Vector;
 use super::slopes::{Linearised, Slopes};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::simd::vectorised;
-use crate::linalg::vector::dot;
 
 /// An unknown, with the equation of the same component.
 #[derive(Clone, Copy, Debug)]
@@ -82,11 +81,6 @@ impl<'i> Image<'i> {
     /// The image with these components.
     pub fn of(entries: impl Into<Cow<'i, [f64]>>) -> Self {
         Image { entries: entries.into(), factor: 1.0 }
-    }
-
-    /// Its product with a vector.
-    pub fn dot(&self, vector: &[f64]) -> f64 {
-        self.factor * dot(vector, &self.entries)
     }
 }
 

@@ -59,7 +59,7 @@ mod remarks;
 mod slopes;
 mod state;
 
-pub use assembly::{Assembly, Image, Unknown};
+pub use assembly::{Assembly, Unknown};
 pub use bound::{Bound, length};
 pub use contact::{Contact, references, scale_roots};
 pub use contradiction::{

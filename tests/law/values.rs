@@ -8,7 +8,7 @@ use fastrand::Rng;
 use signorini::law::Tangential;
 use signorini::law::complementarity::lower_bounds;
 use signorini::law::{
-    Bound, Contact, Image, PairLaw, Piece, Rule, State, bounded, exceed_gaps, friction_is_large,
+    Bound, Contact, PairLaw, Piece, Rule, State, bounded, exceed_gaps, friction_is_large,
     gaps_within_reach, length, touching,
 };
 use signorini::{ContactData, ContactProblem, FrictionLaw};
@@ -374,14 +374,6 @@ fn contact_prescribes_closed_gaps_and_earlier_slips() {
         assert_eq!(law(gap).prescribed(d_n), expected, "{gap}, {d_n}");
     }
     assert_eq!(law(5.0).with_tie().prescribed(0.0), 5.0);
-}
-
-/// An image of whole numbers multiplies another vector as vectors do.
-#[test]
-fn an_image_multiplies_as_a_vector() {
-    let image = Image::of(vec![2.0, -3.0, 5.0]);
-    assert_eq!(image.dot(&[7.0, 11.0, 13.0]), 46.0);
-    assert_eq!(image.dot(&[3.0, 2.0, 0.0]), 0.0);
 }
 
 /// Sides of 3 and 4 in units of every power of two, down to the smallest number.

@@ -198,7 +198,7 @@ impl<'e> Newton<'e> {
         equations.matrix.add_product(&change, &mut lack);
         let pairs = equations.linearised(&pieces, &y);
         let system = self.factor(pieces, pairs)?;
-        let (steps, _) = system.step(equations, &lack, 0.0)?;
+        let steps = system.step(equations, &lack)?;
         let pairs = equations.laws.iter().zip(system.pairs()).zip(&steps);
         for (((law, pair), dy), change) in pairs.zip(change.chunks_exact_mut(dim)) {
             let moved = law.displacement_by(&pair.moved(dy));
@@ -217,8 +217,7 @@ impl<'e> Newton<'e> {
         if !self.kept.as_ref().is_some_and(serves) {
             self.factorisations += 1;
             let pairs = (pairs, 1.0);
-            let system =
-                System::new(equations, pairs, None, NULL_VECTOR, &mut self.monitor.asking());
+            let system = System::new(equations, pairs, NULL_VECTOR, &mut self.monitor.asking());
             self.is_stopped = system.is_none() && self.monitor.is_late();
             self.kept = Some((system?, pieces));
         }

@@ -3,10 +3,11 @@
 //! The piece of every pair is a state of the method. On frozen pieces `H` is analytic and is evaluated
 //! beyond their boundaries, so that a corrector cannot change pieces by itself. One boundary is
 //! crossed at a time: the corrector lands on it, the piece of that one pair changes, and the tangent in
-//! the new piece has the orientation of the old one, that of `det [dH; t'] > 0`.
+//! the new piece has the orientation of the old one, that of `det [dH; t'] > 0`: its `ds` has the sign of `det J`.
 //!
-//! One factorisation serves a tangent and the correction of the step along it: with `t` the solution
-//! for the border alone and `z` that for `H`, `z + a t` meets any one condition by its `a`.
+//! One factorisation of `J` serves a tangent and the correction of the step along it: with `t = (-J⁻¹ dH/ds, 1)` and
+//! `z = (-J⁻¹ H, 0)`, `z + a t` meets any one condition by its `a`. Where the curve turns in `s` within a piece `J` is
+//! singular, at a point that no step hits but for rounding.
 //!
 //! At a boundary one pair changes its piece, but the blocks of all slipping pairs turn along the way to it, so that
 //! the old factor with the changed rows and columns in borders would not be the new system. Nor would it save
@@ -17,7 +18,7 @@ use super::homotopy::{Homotopy, PathPoint, Value};
 use crate::law::{Boundary, Piece, Vector};
 use crate::linalg::tolerances::SINGULAR;
 use crate::monitor::Watch;
-use crate::solve::pieces::{Border, System};
+use crate::solve::pieces::System;
 use crate::solve::result::Ending;
 
 /// Longest step, as a part of the size of the place, which begins near one.
@@ -98,19 +99,16 @@ impl<'h> Curve<'h> {
     pub fn follow(&mut self) -> Result<(), Ending> {
         let pairs = self.pieces.len();
         let most = LEAST_SYSTEMS.max(SYSTEMS_PER_PAIR * pairs) as u64;
-        let mut border = PathPoint::of_s(pairs);
         let mut step = f64::INFINITY;
         while self.systems <= most {
-            let mut local = self.local(&border)?;
+            let mut local = self.local()?;
             let size = 1.0 + self.homotopy.norm(&self.place);
             let (place, condition, length) = self.advance(&mut local, step.min(LONGEST * size))?;
             self.place = place;
-            border = self.homotopy.dual(&local.tangent);
             match condition {
                 Condition::End => return Ok(()),
                 Condition::Plane { .. } => step = 2.0 * length,
                 Condition::Boundary { pair, boundary } => {
-                    border = self.miss(&condition, &self.place).1;
                     self.pieces[pair] =
                         self.homotopy.equations.laws[pair].across(self.pieces[pair], boundary);
                     step = step.min(LONGEST * size).max(AFTER_BOUNDARY * size);
@@ -156,39 +154,27 @@ impl<'h> Curve<'h> {
         Err(Ending::Stalled("the path of solutions cannot be followed further"))
     }
 
-    /// Factorises at the place of the curve with the border `normal`, and finds the tangent.
-    fn local(&mut self, border: &PathPoint) -> Result<Local, Ending> {
+    /// Factorises at the place of the curve, and finds the tangent.
+    fn local(&mut self) -> Result<Local, Ending> {
         let value = self.homotopy.value(&self.pieces, &self.place);
         if value.stretch > AWAY * self.homotopy.size {
             return Err(Ending::Stalled("the displacements run away on the path of solutions"));
         }
         let place = self.place.clone();
-        self.factorised(&place, &value, border)?.ok_or(Ending::Singular)
+        self.factorised(&place, &value)?.ok_or(Ending::Singular)
     }
 
-    fn factorised(
-        &mut self,
-        place: &PathPoint,
-        value: &Value,
-        border: &PathPoint,
-    ) -> Result<Option<Local>, Ending> {
+    fn factorised(&mut self, place: &PathPoint, value: &Value) -> Result<Option<Local>, Ending> {
         self.monitor.step()?;
         let equations = self.homotopy.equations;
         let pairs = equations.linearised(&self.pieces, &place.y);
         self.monitor.affords(System::work(equations, &pairs))?;
         self.systems += 1;
-        let border = Border {
-            rate: &value.rate,
-            normal: &border.y,
-            along: border.s,
-            unit: self.homotopy.size.recip(),
-        };
-        let (pairs, asking) = ((pairs, place.s), &mut self.monitor.asking());
-        let system = System::new(equations, pairs, Some(&border), SINGULAR, asking);
+        let asking = &mut self.monitor.asking();
+        let system = System::new(equations, (pairs, place.s), SINGULAR, asking);
         let Some(mut system) = system else { return Ok(None) };
-        let nothing = vec![0.0; value.lack.len()];
-        let Some((y, s)) = system.step(equations, &nothing, 1.0) else { return Ok(None) };
-        let mut tangent = PathPoint { y, s };
+        let Some(y) = system.step(equations, &value.rate) else { return Ok(None) };
+        let mut tangent = PathPoint { y, s: 1.0 };
         let length = self.homotopy.norm(&tangent);
         tangent.scale(f64::from(system.orientation()) / length);
         Ok(Some(Local { system, tangent }))
@@ -219,17 +205,16 @@ impl<'h> Curve<'h> {
                     return Ok(None);
                 }
                 refactorisations += 1;
-                let border = self.homotopy.dual(&local.tangent);
-                fresh = self.factorised(&place, &value, &border)?;
+                fresh = self.factorised(&place, &value)?;
                 if fresh.is_none() {
                     return Ok(None);
                 }
             }
             before = now;
             let local = fresh.as_mut().unwrap_or(local);
-            let step = local.system.step(self.homotopy.equations, &value.lack, 0.0);
-            let Some((y, s)) = step else { return Ok(None) };
-            let z = PathPoint { y, s };
+            let step = local.system.step(self.homotopy.equations, &value.lack);
+            let Some(y) = step else { return Ok(None) };
+            let z = PathPoint { y, s: 0.0 };
             let along = normal.apply(&local.tangent);
             let part = (-miss - normal.apply(&z)) / along;
             if !part.is_finite() {

@@ -50,7 +50,7 @@ struct Changed {
 impl Amended {
     /// A system of these equations that is factorised.
     pub fn of(equations: &Equations<'_>, base: System) -> Self {
-        let columns = Columns::none(equations.root.len(), base.size());
+        let columns = Columns::none(equations.root.len());
         Amended { base, columns, change: None }
     }
 

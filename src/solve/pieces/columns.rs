@@ -11,8 +11,6 @@ const KEPT: f64 = 0.25;
 
 /// The columns that are known.
 pub struct Columns {
-    /// Entries of a column.
-    length: usize,
     /// The components whose columns are known, in their order.
     components: Vec<usize>,
     /// Where the column of each component is.
@@ -22,10 +20,9 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// None yet, of so many components, each column of so many entries.
-    pub fn none(components: usize, length: usize) -> Self {
-        let place = vec![None; components];
-        Columns { length, components: Vec::new(), place, values: Vec::new() }
+    /// None yet, of so many components.
+    pub fn none(components: usize) -> Self {
+        Columns { components: Vec::new(), place: vec![None; components], values: Vec::new() }
     }
 
     /// The components whose columns are known, in the order of [`Self::values`].
@@ -41,12 +38,6 @@ impl Columns {
     /// The known columns of which the column of a term is made, each with its part.
     pub fn parts(&self, term: &Term) -> impl Iterator<Item = (usize, f64)> {
         term.parts().filter_map(|(i, u)| Some((self.place[i]?, u)))
-    }
-
-    /// The column of a component.
-    pub fn of(&self, component: usize) -> Option<&[f64]> {
-        let length = self.length;
-        self.place[component].map(|place| &self.values[length * place..length * (place + 1)])
     }
 
     /// The components of these parts whose columns are not known, each once.

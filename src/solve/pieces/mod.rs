@@ -16,6 +16,6 @@ mod updated;
 
 pub use before::Before;
 pub use equations::{Equations, Point, Step};
-pub use system::{Border, System};
+pub use system::System;
 pub use systems::{REFINEMENTS, SMALL, Systems};
 pub use updated::Updated;

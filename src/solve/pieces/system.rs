@@ -1,40 +1,27 @@
 //! The linear system of given pieces: Newton's step on the normal map, condensed on the components that
-//! move, and bordered by the parameter of a homotopy.
+//! move, of the problem or of a homotopy to it.
 //!
 //! With `K_s = s K + (1 - s) k` (`s = 1`: the problem itself) `J dy = b`, for a step `b = -H`, is reduced to the
 //! unknowns of each pair (`law::slopes`), the normal components of open pairs and the tangential ones of pairs that
 //! slip or carry no friction:
 //!
 //! ```text
-//! dp = (b - K_s dd - g ds)_n                                                            closed
-//! (K_s dd + g ds)_n = b_n                                                               open
-//! (K_s dd + g ds)_t - drag (K_s dd + g ds)_n + turn x = b_t - drag b_n,     g = dH/ds    slipping
+//! dp = (b - K_s dd)_n                                               closed
+//! (K_s dd)_n = b_n                                                  open
+//! (K_s dd)_t - drag (K_s dd)_n + turn x = b_t - drag b_n            slipping
 //! ```
 //!
 //! `k` is a number of the pair under an isotropic law, and a symmetric matrix with an ellipse.
 //!
-//! Nothing is divided by the slip. The sign of the determinant is that of `J`, or of `J` bordered: the
-//! components that are eliminated have the pivot 1.
+//! Nothing is divided by the slip. The sign of the determinant is that of `J`: the components that are eliminated have the
+//! pivot 1.
 
 use super::equations::Equations;
 use super::held::{self, Held};
-use crate::law::{Assembly, Image, Linearised, Unknown, Vector, by_pairs, ellipse};
+use crate::law::{Assembly, Linearised, Unknown, Vector, by_pairs, ellipse};
 use crate::linalg::factor::{Factor, cholesky_work, lu_work};
-use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::{dot, opposite};
+use crate::linalg::vector::{first_not_finite, opposite};
 use crate::linalg::watched::{GoesOn, written};
-
-/// The border of a system: `border . (dy, ds) = wanted`.
-pub struct Border<'b> {
-    /// `g = dH/ds`.
-    pub rate: &'b [f64],
-    /// Coefficients of `dy`, pair by pair.
-    pub normal: &'b [Vector],
-    /// Coefficient of `ds`.
-    pub along: f64,
-    /// Unit of `ds` divided by that of scaled forces: it makes the border as large as the rest.
-    pub unit: f64,
-}
 
 /// A factorised system.
 pub struct System {
@@ -47,15 +34,6 @@ pub struct System {
     /// Components that are no unknowns.
     held: Held,
     factor: Factor,
-    border: Option<Bordered>,
-}
-
-/// The border that a system keeps: `g`, coefficients of the reactions, and the unit of the last row and of `ds`.
-struct Bordered {
-    rate: Vec<f64>,
-    reactions: Vec<f64>,
-    row_scale: f64,
-    column_scale: f64,
 }
 
 impl System {
@@ -63,8 +41,7 @@ impl System {
     pub fn work(equations: &Equations<'_>, pairs: &[Linearised]) -> f64 {
         let unknowns = |pair: &Linearised| (0..equations.dim).filter(|&c| pair.moves(c)).count();
         let count = pairs.iter().map(unknowns).sum();
-        let is_plain = equations.symmetric && pairs.iter().all(|pair| pair.slopes.is_plain());
-        if is_plain { cholesky_work(count) } else { lu_work(count) }
+        if is_plain(equations, pairs) { cholesky_work(count) } else { lu_work(count) }
     }
 
     /// Factorises the system of pairs on their pieces; pivots below `least`, relative to the largest, make it
@@ -72,7 +49,6 @@ impl System {
     pub fn new(
         equations: &Equations<'_>,
         (pairs, s): (Vec<Linearised>, f64),
-        border: Option<&Border<'_>>,
         least: f64,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
@@ -92,17 +68,23 @@ impl System {
         }
         let slopes = pairs.iter().map(|pair| &pair.slopes);
         let assembly = Assembly::new(dim, equations.matrix, &unknowns, slopes);
-        let coefficients =
-            Coefficients { equations, assembly, unknowns: &unknowns, pairs: &pairs, s, least };
-        let (factor, border) = match border {
-            None => (coefficients.factor(goes_on)?, None),
-            Some(border) => {
-                let (factor, bordered) = coefficients.bordered(border, goes_on)?;
-                (factor, Some(bordered))
-            }
+        let size = unknowns.len();
+        let fill = |j: usize, first: usize, entries: &mut [f64]| {
+            let from = dim * unknowns[first].pair;
+            let image = match s == 1.0 {
+                true => assembly.image(j, from),
+                false => assembly.led_image((s, &pairs), j, from),
+            };
+            assembly.coefficients(j, first, &image, entries);
         };
+        let definite = match is_plain(equations, &pairs) {
+            true => Factor::new(size, true, least, |j, below| fill(j, j, below), goes_on),
+            false => None,
+        };
+        let whole = |j: usize, entries: &mut [f64]| fill(j, 0, entries);
+        let factor = definite.or_else(|| Factor::new(size, false, least, whole, goes_on))?;
         let held = Held::new(held);
-        Some(System { dim, all, s, pairs, unknowns, held, factor, border })
+        Some(System { dim, all, s, pairs, unknowns, held, factor })
     }
 
     /// Sign of the determinant.
@@ -120,40 +102,20 @@ impl System {
         self.unknowns.len()
     }
 
-    /// `(dy, ds)` for the lack `H` of the equations and what the border wants, 0 without one; `None` if it overflows.
-    pub fn step(
-        &mut self,
-        equations: &Equations<'_>,
-        lack: &[f64],
-        wanted: f64,
-    ) -> Option<(Vec<Vector>, f64)> {
-        let mut b = opposite(lack);
-        let mut x = self.right_sides(&b);
-        if let Some(border) = &self.border {
-            x.push((wanted - dot(&border.reactions, &b)) * border.row_scale);
-        }
-        self.factor.solve(&mut x);
-        if !x.iter().all(|x| x.is_finite()) {
-            return None;
-        }
-        let mut ds = 0.0;
-        if let (Some(border), Some(last)) = (&self.border, x.get(self.unknowns.len())) {
-            ds = border.column_scale * last;
-            x.truncate(self.unknowns.len());
-            b.iter_mut().zip(&border.rate).for_each(|(b, rate)| *b -= rate * ds);
-        }
-        let dy = self.coordinates(equations, &b, &x);
-        Some((by_pairs(self.dim, &dy), ds))
+    /// `dy` for the lack `H` of the equations; `None` if it overflows.
+    pub fn step(&mut self, equations: &Equations<'_>, lack: &[f64]) -> Option<Vec<Vector>> {
+        let dy = self.solve(equations, &opposite(lack));
+        first_not_finite(&dy).is_none().then(|| by_pairs(self.dim, &dy))
     }
 
-    /// The unknowns of `J⁻¹ b` for each column of `b`, without a border.
+    /// The unknowns of `J⁻¹ b` for each column of `b`.
     pub fn unknowns(&self, b: &[f64]) -> Vec<f64> {
         let mut x = self.right_sides(b);
         self.factor.solve(&mut x);
         x
     }
 
-    /// `J⁻¹ b` for each column of `b`, without a border.
+    /// `J⁻¹ b` for each column of `b`.
     pub fn solve(&mut self, equations: &Equations<'_>, b: &[f64]) -> Vec<f64> {
         let x = self.unknowns(b);
         self.coordinates(equations, b, &x)
@@ -255,86 +217,7 @@ impl System {
     }
 }
 
-/// The coefficients from which a system is factorised.
-struct Coefficients<'s> {
-    equations: &'s Equations<'s>,
-    assembly: Assembly<'s>,
-    unknowns: &'s [Unknown],
-    pairs: &'s [Linearised],
-    s: f64,
-    /// Least pivot of a regular system, relative to the largest.
-    least: f64,
-}
-
-impl<'s> Coefficients<'s> {
-    /// `K_s dd` for a unit of the unknown `j`, the components from `from` on.
-    fn image(&self, j: usize, from: usize) -> Image<'s> {
-        match self.s == 1.0 {
-            true => self.assembly.image(j, from),
-            false => self.assembly.led_image((self.s, self.pairs), j, from),
-        }
-    }
-
-    /// By Cholesky's method where the system is symmetric and definite.
-    fn factor(&self, goes_on: GoesOn<'_>) -> Option<Factor> {
-        let (dim, unknowns) = (self.equations.dim, self.unknowns);
-        let fill = |j: usize, first: usize, entries: &mut [f64]| {
-            let image = self.image(j, dim * unknowns[first].pair);
-            self.assembly.coefficients(j, first, &image, entries);
-        };
-        let size = unknowns.len();
-        let is_plain =
-            self.equations.symmetric && self.pairs.iter().all(|pair| pair.slopes.is_plain());
-        let definite = match is_plain {
-            true => Factor::new(size, true, self.least, |j, below| fill(j, j, below), goes_on),
-            false => None,
-        };
-        let whole = |j: usize, entries: &mut [f64]| fill(j, 0, entries);
-        definite.or_else(|| Factor::new(size, false, self.least, whole, goes_on))
-    }
-
-    fn bordered(&self, border: &Border<'_>, goes_on: GoesOn<'_>) -> Option<(Factor, Bordered)> {
-        let (dim, unknowns) = (self.equations.dim, self.unknowns);
-        let n = unknowns.len();
-        let reactions = self.reactions(border);
-        let (row_scale, column_scale) = (border.unit.recip(), border.unit);
-        let fill = |j: usize, entries: &mut [f64]| {
-            if let Some(unknown) = unknowns.get(j) {
-                let image = self.image(j, 0);
-                self.assembly.coefficients(j, 0, &image, entries);
-                // k b of the unknown, less what the reactions take.
-                let own = self.pairs[unknown.pair].scaled(&border.normal[unknown.pair]);
-                let row = own[unknown.component] * unknown.column - image.dot(&reactions);
-                entries[n] = row_scale * row;
-                return;
-            }
-            for (entry, i) in entries.iter_mut().zip(unknowns) {
-                let (at, c) = (dim * i.pair, i.component);
-                let drag = self.pairs[i.pair].slopes.drag_of(c);
-                let rate = border.rate[at + c] - drag * border.rate[at];
-                *entry = column_scale * rate * i.row;
-            }
-            entries[n] = row_scale * column_scale * (border.along - dot(&reactions, border.rate));
-        };
-        let factor = Factor::new(n + 1, false, SINGULAR, fill, goes_on)?;
-        let rate = border.rate.to_vec();
-        Some((factor, Bordered { rate, reactions, row_scale, column_scale }))
-    }
-
-    /// Coefficients of the border on `b - K_s dd - g ds`, which the components follow that are no
-    /// unknowns.
-    fn reactions(&self, border: &Border<'_>) -> Vec<f64> {
-        let dim = self.equations.dim;
-        let mut reactions = vec![0.0; self.equations.root.len()];
-        for (at, (pair, b)) in self.pairs.iter().zip(border.normal).enumerate() {
-            if pair.closed {
-                let dragged: f64 = (1..dim).map(|c| pair.slopes.drag[c - 1] * b[c]).sum();
-                reactions[dim * at] = b[0] + dragged;
-            }
-            if !pair.slips {
-                reactions[dim * at + 1..dim * (at + 1)].copy_from_slice(&b[1..dim]);
-            }
-        }
-        reactions
-    }
+/// True if the system of pairs on their pieces is symmetric: Cholesky's method factorises it, if it is definite.
+fn is_plain(equations: &Equations<'_>, pairs: &[Linearised]) -> bool {
+    equations.symmetric && pairs.iter().all(|pair| pair.slopes.is_plain())
 }

@@ -101,7 +101,7 @@ impl<'e> Systems<'e> {
         // Two factors never stand side by side.
         self.last = None;
         self.factorisations += 1;
-        let system = System::new(equations, (pairs, 1.0), None, SINGULAR, goes_on);
+        let system = System::new(equations, (pairs, 1.0), SINGULAR, goes_on);
         self.last = Some(Amended::of(equations, system.ok_or(Ending::Singular)?));
         Ok(())
     }

@@ -5,6 +5,7 @@
 use crate::law::{Linearised, Planar};
 
 /// A term `u nᵀ` of the change of a pair.
+#[derive(Default)]
 pub struct Term {
     /// First component of the pair.
     pub first: usize,
@@ -26,16 +27,6 @@ pub fn terms(
 }
 
 impl Term {
-    /// The one term of a pair that passes a boundary; a zero one, if its derivative stays.
-    pub fn of_boundary(
-        dim: usize,
-        pairs: &[Linearised],
-        (pair, beyond): (usize, &Linearised),
-    ) -> Self {
-        let (u, n) = pairs[pair].change_to(beyond).pop().unwrap_or_default();
-        Term { first: dim * pair, u, n }
-    }
-
     /// `n.y` for the coordinates of the pair.
     pub fn along(&self, own: &[f64]) -> f64 {
         let second = if self.n[1] == 0.0 { 0.0 } else { self.n[1] * own[1] };

@@ -56,8 +56,8 @@ impl<'e> Updated<'e> {
         pairs: Vec<Linearised>,
         goes_on: GoesOn<'_>,
     ) -> Option<Self> {
-        let base = System::new(equations, (pairs.clone(), 1.0), None, SINGULAR_BASIS, goes_on)?;
-        let columns = Columns::none(equations.root.len(), equations.root.len());
+        let base = System::new(equations, (pairs.clone(), 1.0), SINGULAR_BASIS, goes_on)?;
+        let columns = Columns::none(equations.root.len());
         let (changes, directions) = (Vec::new(), Vec::new());
         Some(Updated { equations, base, pairs, columns, changes, directions })
     }
@@ -80,10 +80,15 @@ impl<'e> Updated<'e> {
         x
     }
 
+    /// The one term of a pair that passes a boundary; a zero one, if its derivative stays.
+    fn term(&self, pair: usize, beyond: &Linearised) -> Term {
+        let beyond = std::iter::once((pair, *beyond));
+        terms(self.equations.dim, &self.pairs, beyond).pop().unwrap_or_default()
+    }
+
     /// True if the change of a pair needs columns that are not known.
     pub fn lacks_columns(&self, pair: usize, beyond: &Linearised) -> bool {
-        let term = Term::of_boundary(self.equations.dim, &self.pairs, (pair, beyond));
-        !self.columns.lacking(term.parts()).is_empty()
+        !self.columns.lacking(self.term(pair, beyond).parts()).is_empty()
     }
 
     /// Makes columns for changes of pairs, at most so many, so far as they are not known; `None` where `goes_on` says no.
@@ -112,11 +117,11 @@ impl<'e> Updated<'e> {
         if self.lacks_columns(pair, &beyond) {
             self.prepare(&[(pair, beyond)], dim, goes_on)?;
         }
-        let term = Term::of_boundary(dim, &self.pairs, (pair, &beyond));
+        let term = self.term(pair, &beyond);
         self.pairs[pair] = beyond;
         let mut z = vec![0.0; self.equations.root.len()];
-        for (i, u) in term.parts() {
-            let column = self.columns.of(i).expect("it was prepared above");
+        for (place, u) in self.columns.parts(&term) {
+            let column = &self.columns.values()[z.len() * place..];
             z.iter_mut().zip(column).for_each(|(z, column)| *z += u * column);
         }
         self.pass(&mut z);

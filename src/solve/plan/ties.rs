@@ -127,16 +127,8 @@ impl Others {
         self.block.components.iter().map(|&i| values[i]).collect()
     }
 
-    /// Values of all components from those of these pairs, the others zero.
-    fn spread(&self, own: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.held.len()];
-        self.block.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
-        all
-    }
-
-    /// All displacements from those of these pairs.
-    fn displacements(&self, own: &[f64]) -> Vec<f64> {
-        let mut all = self.held.clone();
+    /// Values of all components from those of these pairs; the others are those of `all`.
+    fn spread(&self, own: &[f64], mut all: Vec<f64>) -> Vec<f64> {
         self.block.components.iter().zip(own).for_each(|(&i, own)| all[i] = *own);
         all
     }
@@ -144,7 +136,9 @@ impl Others {
     /// The solution on these pairs, as a result of the whole problem.
     fn on_whole(&self, call: &Call<'_>, found: Solution) -> Solution {
         let (contact, settings) = (call.contact, call.settings);
-        let (d, low) = (self.displacements(&found.d), self.spread(&found.d_low));
+        let nothing = || vec![0.0; self.held.len()];
+        let displacements = |own: &[f64]| self.spread(own, self.held.clone());
+        let (d, low) = (displacements(&found.d), self.spread(&found.d_low, nothing()));
         let force = contact.problem().force_of_parts(&d, &low);
         let ending = found.status.stop().map_or(Ending::Done, Ending::Stopped);
         let at = Candidate::of_displacements(contact, d.clone(), ending);
@@ -170,18 +164,18 @@ impl Others {
             d: at.d().to_vec(),
             d_low: at.low_part(),
             certificate,
-            recession: found.recession.map(|motion| self.spread(&motion)),
+            recession: found.recession.map(|motion| self.spread(&motion, nothing())),
             escape: found.escape.map(|Escape { motion, unbalanced }| Escape {
-                motion: self.spread(&motion),
-                unbalanced: self.spread(&unbalanced),
+                motion: self.spread(&motion, nothing()),
+                unbalanced: self.spread(&unbalanced, nothing()),
             }),
             errors: at.errors,
             definite: Vec::new(),
             ..found
         };
         solution.change_second(settings.tolerance, |second| {
-            second.d = self.displacements(&second.d);
-            second.d_low = self.spread(&second.d_low);
+            second.d = displacements(&second.d);
+            second.d_low = self.spread(&second.d_low, nothing());
             second.certificate = measure(contact, (&second.d, &second.d_low), &[]);
         });
         solution
