@@ -110,7 +110,7 @@ pub(super) struct Hull<'a> {
 impl<'a> Hull<'a> {
     pub(super) fn of(face: &'a Face<'_>) -> Hull<'a> {
         let points = &face.x[..face.kind.nodes()];
-        Hull { points, margin: if face.is_straight() { 0.0 } else { face.bulge() } }
+        Hull { points, margin: if face.is_bilinear() { 0.0 } else { face.bulge() } }
     }
 
     /// How far it reaches along a direction, times the length of that.
