@@ -152,13 +152,13 @@ impl<'a> Search<'a> {
         let Search { sides: [slave, master], own, candidates, shapes, overlaps, polynomials } =
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
-        keep(&mut parts, points, |opposite, points| {
-            let from = face.position(points[0].slave);
+        parts.retain(|opposite| {
+            let from = face.position(points[opposite.points.start].slave);
             !own.end_above((from, normal), -opposite.part.distance, reach.of_shells())
         });
         let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
         let most = distances.fold(f64::INFINITY, f64::min) + reach.layer;
-        keep(&mut parts, points, |opposite, _| opposite.part.distance.abs() <= most);
+        parts.retain(|opposite| opposite.part.distance.abs() <= most);
         let share = |parts: &[Opposite<'_>]| parts.iter().map(|part| part.part.share).sum::<f64>();
         if share(&parts) > 1.0 + SAME_COVER {
             let over: Vec<String> =
@@ -175,9 +175,9 @@ impl<'a> Search<'a> {
             a.part.joins(&b.part, step) && candidates.are_of_one_surface([a.at, b.at])
         };
         if parts.windows(2).any(|two| !joins(&two[0], &two[1])) {
-            let mut kept = one_surface(&parts, joins).into_iter();
-            keep(&mut parts, points, |_, _| kept.next() == Some(true));
+            keep_one_surface(&mut parts, joins);
         }
+        keep_points(&mut parts, points);
         let is_off_axis = !face.is_at_axis();
         if parts.is_empty() {
             return Ok((None, is_off_axis));
@@ -230,47 +230,34 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Keeps some of the parts, with their points.
-fn keep(
-    parts: &mut Vec<Opposite<'_>>,
-    points: &mut Vec<Meeting>,
-    mut keeps: impl FnMut(&Opposite<'_>, &[Meeting]) -> bool,
-) {
+/// Leaves the points of the parts alone.
+fn keep_points(parts: &mut [Opposite<'_>], points: &mut Vec<Meeting>) {
     let mut end = 0;
-    parts.retain_mut(|opposite| {
+    for opposite in parts {
         let own = opposite.points.clone();
-        let is_kept = keeps(opposite, &points[own.clone()]);
-        if is_kept {
-            opposite.points = end..end + own.len();
-            if own.start > end {
-                points.copy_within(own, end);
-            }
-            end = opposite.points.end;
-        }
-        is_kept
-    });
+        opposite.points = end..end + own.len();
+        points.copy_within(own, end);
+        end = opposite.points.end;
+    }
     points.truncate(end);
 }
 
-/// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between
+/// Leaves the parts that are on one surface with the nearest one. Distances from a face to a surface take all values between
 /// theirs; across a step they jump. Weights are negative on a part of a face, so that with both sides of a step, or of an edge
 /// of the body, gaps would be less than all distances.
-fn one_surface(
-    parts: &[Opposite<'_>],
+fn keep_one_surface(
+    parts: &mut Vec<Opposite<'_>>,
     joins: impl Fn(&Opposite<'_>, &Opposite<'_>) -> bool,
-) -> Vec<bool> {
+) {
     let distance = |at: &usize| parts[*at].part.distance.abs();
-    let mut kept = vec![false; parts.len()];
-    let first = (0..parts.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let mut reached: Vec<usize> = first.into_iter().collect();
-    while let Some(at) = reached.pop() {
-        kept[at] = true;
-        let is_new = |other: &usize| !kept[*other] && joins(&parts[at], &parts[*other]);
-        let more: Vec<usize> = (0..parts.len()).filter(is_new).collect();
-        more.iter().for_each(|&other| kept[other] = true);
-        reached.extend(more);
+    let mut rest: Vec<usize> = (0..parts.len()).collect();
+    let nearest = rest.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut kept: Vec<usize> = nearest.into_iter().collect();
+    while let Some(at) = kept.pop() {
+        kept.extend(rest.extract_if(.., |other| joins(&parts[at], &parts[*other])));
     }
-    kept
+    let mut place = 0..;
+    parts.retain(|_| place.next().is_some_and(|at| rest.binary_search(&at).is_err()));
 }
 
 /// The rows of all nodes with cover, by node. The areas of all faces are added to those of the report.
