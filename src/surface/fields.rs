@@ -14,7 +14,7 @@ use super::pairs::{SurfacePair, SurfacePairs, Weight};
 use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
-use crate::problem::{check_finite, check_gaps};
+use crate::problem::{check_count, check_finite, check_gaps};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +175,7 @@ impl SurfacePairs {
     ) -> Result<Resultant, Error> {
         self.check(results)?;
         let dim = self.dim;
-        check_length(Argument::Coordinates, "point", point.len(), dim)?;
+        check_count(("point", Argument::Coordinates), point.len(), dim)?;
         check_finite(("point", Argument::Coordinates), point)?;
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
@@ -246,22 +246,15 @@ impl SurfacePairs {
     fn check(&self, results: &PairResults<'_>) -> Result<(), Error> {
         let pairs = self.pairs.len();
         let PairResults { gap, reference_slip, d, force } = results;
-        check_length(Argument::Start, "d", d.len(), self.dim * pairs)?;
-        check_length(Argument::Load, "F", force.len(), self.dim * pairs)?;
-        check_length(Argument::Gap, "gap", gap.map_or(pairs, <[f64]>::len), pairs)?;
+        check_count(("d", Argument::Start), d.len(), self.dim * pairs)?;
+        check_count(("F", Argument::Load), force.len(), self.dim * pairs)?;
+        check_count(("gap", Argument::Gap), gap.map_or(pairs, <[f64]>::len), pairs)?;
         let slips = (self.dim - 1) * pairs;
         let given = reference_slip.map_or(slips, <[f64]>::len);
-        check_length(Argument::ReferenceSlip, "slip0", given, slips)?;
+        check_count(("slip0", Argument::ReferenceSlip), given, slips)?;
         check_finite(("d", Argument::Start), d)?;
         check_finite(("F", Argument::Load), force)?;
         check_finite(("slip0", Argument::ReferenceSlip), reference_slip.unwrap_or_default())?;
         check_gaps(gap.unwrap_or_default())
     }
-}
-
-fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> Result<(), Error> {
-    if given == needed {
-        return Ok(());
-    }
-    Err(Error::invalid(argument, format!("{name} has {given} entries, it needs {needed}")))
 }
