@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::control::Edges;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::{Row, add_face};
 use super::symmetry::OnPlanes;
@@ -55,17 +54,16 @@ pub(super) fn pairs_of_rows(
     rows: BTreeMap<usize, Row>,
     mut report: SurfaceReport,
     pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let kept = |(node, row)| {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         pair(node, row)
     };
     let pairs: Vec<SurfacePair> = rows.into_iter().map(kept).collect::<Result<_, Error>>()?;
     report.slave_faces = slave.count();
     report.covered_area = pairs.iter().map(|pair| pair.area).sum();
     let mut unpaired = slave.all_nodes();
-    progress.goes_on()?;
+    slave.progress.goes_on()?;
     let mut next = pairs.iter().peekable();
     unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
     Ok(SurfacePairs { dim: slave.dim, pairs, unpaired, report, ..SurfacePairs::default() })
@@ -80,17 +78,15 @@ pub(super) fn whole_rows(
     meets: impl Fn(usize) -> bool,
     side: &Side<'_>,
     report: &mut SurfaceReport,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<BTreeMap<usize, Row>, Error> {
-    let faces = || (0..side.count()).map(|face| side.face(face));
     let mut edges = Edges::default();
-    for face in faces() {
-        progress.goes_on()?;
+    for face in side.each_face() {
+        let (_, face) = face?;
         edges.add(face.kind, face.nodes, !face.is_at_axis());
     }
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for (at, face) in faces().enumerate() {
-        progress.goes_on()?;
+    for face in side.each_face() {
+        let (at, face) = face?;
         let basis = edges.basis(face.kind, face.nodes, true);
         let (on, integrals) = ((face.nodes, &basis), ([face.integrals(); 2], Default::default()));
         report.slave_area += side.own_area(at, integrals.0[0]);

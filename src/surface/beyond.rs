@@ -3,7 +3,6 @@
 use super::candidates::Candidates;
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
-use super::pairing_progress::PairingProgress;
 use super::pairs::SurfaceReport;
 use crate::error::Error;
 
@@ -17,7 +16,6 @@ impl Candidates<'_> {
         mut self,
         [slave, master]: [&Side<'_>; 2],
         report: &mut SurfaceReport,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(), Error> {
         (report.boxes_searched, report.not_opposed) = (self.searched, self.not_opposed);
         let reach = self.reach;
@@ -26,7 +24,7 @@ impl Candidates<'_> {
             (f64::max(reach.overlap, self.span), f64::max(reach.open, self.span));
         let mut overlaps = Overlaps::default();
         for &at in &report.uncovered_faces {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let face = slave.face(at);
             let normal = face.middle_normal();
             let in_plane = SlaveFace::new(&face, normal);

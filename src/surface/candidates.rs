@@ -2,7 +2,6 @@
 
 use super::face::Face;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::plane::Plane;
 use super::shape::BEYOND;
 use super::sweep::Sweep;
@@ -55,14 +54,10 @@ pub(super) struct SearchFaces<'a> {
 impl<'a> SearchFaces<'a> {
     /// # Errors
     /// What stops the pairing.
-    pub(super) fn new(
-        side: &'a Side<'a>,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<SearchFaces<'a>, Error> {
+    pub(super) fn new(side: &'a Side<'a>) -> Result<SearchFaces<'a>, Error> {
         let mut normals = Vec::with_capacity(side.count());
-        for face in 0..side.count() {
-            progress.goes_on()?;
-            normals.push(side.face(face).middle_normal());
+        for face in side.each_face() {
+            normals.push(face?.1.middle_normal());
         }
         Ok(SearchFaces { side, tree: Tree::new(side), normals })
     }

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use super::digits::ON_PLANE;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::shape::FaceKind;
 use crate::error::{Error, entry, index};
 
@@ -112,15 +111,12 @@ impl Side<'_> {
 
     /// Refuses neighbours that run along their common edge in the same direction, if none runs along it in the other: where
     /// bodies meet in an edge, two do in each.
-    pub(super) fn check_orientation(
-        &self,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<(), Error> {
+    pub(super) fn check_orientation(&self) -> Result<(), Error> {
         let mut seen: HashMap<(usize, usize), usize> =
             HashMap::with_capacity(self.faces.nodes.len());
         let mut again = Vec::new();
         for face in 0..self.count() {
-            progress.goes_on()?;
+            self.progress.goes_on()?;
             let corners = self.corners(face);
             for (i, &a) in corners.iter().enumerate() {
                 let b = corners[(i + 1) % corners.len()];

@@ -17,7 +17,6 @@ use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
@@ -53,17 +52,16 @@ pub(super) fn pairs<'a>(
     planes: &'a OnPlanes,
     (own, candidates): (SearchFaces<'a>, Candidates<'a>),
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;
     let mut report = SurfaceReport::default();
-    let shapes = TrueSides::new(sides, settings, progress)?;
+    let shapes = TrueSides::new(sides, settings)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
-        progress.step()?;
-        let cover = search.cover(at, &slave.face(at), progress)?;
+        slave.progress.step()?;
+        let cover = search.cover(at, &slave.face(at))?;
         match &cover {
             (None, _) => report.uncovered_faces.push(at),
             (Some(covered), wholly) => {
@@ -74,10 +72,10 @@ pub(super) fn pairs<'a>(
         faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
-    candidates.look_beyond(sides, &mut report, progress)?;
-    let mut rows = rows(slave, faces, (&mut report, progress))?;
+    candidates.look_beyond(sides, &mut report)?;
+    let mut rows = rows(slave, faces, &mut report)?;
     if settings.normals == Normals::Averaged {
-        average(&mut rows, (slave, planes, &report.uncovered_faces), progress)?;
+        average(&mut rows, (slave, planes, &report.uncovered_faces))?;
     }
     let pair = |node, row: Row| {
         let gap = row.gap / row.area;
@@ -92,15 +90,14 @@ pub(super) fn pairs<'a>(
     };
     let held = between_supports(&rows, (slave, settings), pair);
     let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold((settings, &held), &mut rows, on, progress)?;
-    pairs_of_rows(slave, rows, report, pair, progress)
+    report.folded = rims::fold((settings, &held), &mut rows, on)?;
+    pairs_of_rows(slave, rows, report, pair)
 }
 
 /// Gives rows the mean normals at their nodes, without faces around sharp edges that lie over nothing: these have none of the contact.
 fn average(
     rows: &mut BTreeMap<usize, Row>,
     (slave, planes, uncovered): (&Side<'_>, &OnPlanes, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let looks_elsewhere =
         |row: &Row, normal: &Vector3| row.normal.dot(normal) <= SAME_WAY * row.normal.norm();
@@ -108,9 +105,9 @@ fn average(
         uncovered.binary_search(&at).is_err()
             || !rows.get(&node).is_some_and(|row| looks_elsewhere(row, normal))
     };
-    let averaged = slave.node_normals(planes, counts, progress)?;
+    let averaged = slave.node_normals(planes, counts)?;
     for (node, row) in rows {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let mean = averaged[node];
         if mean != Vector3::zeros() {
             row.normal = row.area * mean;
@@ -141,14 +138,9 @@ fn between_supports(
 
 impl<'a> Search<'a> {
     /// The part of the master that a slave face lies over.
-    fn cover(
-        &mut self,
-        at: usize,
-        face: &Face<'_>,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<Cover, Error> {
+    fn cover(&mut self, at: usize, face: &Face<'_>) -> Result<Cover, Error> {
         let normal = face.middle_normal();
-        let mut parts = self.opposite(at, (face, normal), progress)?;
+        let mut parts = self.opposite(at, (face, normal))?;
         let Search { sides: [slave, master], own, candidates, shapes, overlaps, polynomials } =
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
@@ -198,7 +190,6 @@ impl<'a> Search<'a> {
         &mut self,
         at: usize,
         (face, normal): (&Face<'_>, Vector3),
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Vec<Opposite<'a>>, Error> {
         let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
         let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
@@ -207,7 +198,7 @@ impl<'a> Search<'a> {
         let reach = candidates.reach;
         let mut parts = Vec::new();
         for &opposite in candidates.of_face(face, normal) {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let other = master.face(opposite);
             let before = overlaps.points.len();
             let wanted = |distance| reach.holds(distance);
@@ -264,11 +255,11 @@ fn keep_one_surface(
 fn rows(
     slave: &Side<'_>,
     faces: Vec<Cover>,
-    (report, progress): (&mut SurfaceReport, &mut PairingProgress<'_, '_>),
+    report: &mut SurfaceReport,
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let mut edges = Edges::default();
     for (at, (_, wholly)) in faces.iter().enumerate() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let face = slave.face(at);
         edges.add(face.kind, face.nodes, *wholly);
     }
@@ -276,7 +267,7 @@ fn rows(
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     // The memory of a face is given back once its rows have it.
     for (at, (covered, wholly)) in faces.into_iter().enumerate() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         if let Some(covered) = covered {
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
@@ -287,7 +278,7 @@ fn rows(
         }
     }
     for &at in &report.uncovered_faces {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, !face.is_at_axis());
         let (integrals, normal) = (face.integrals(), face.middle_normal());

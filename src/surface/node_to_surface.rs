@@ -14,7 +14,6 @@ use super::candidates::{Candidates, SearchFaces};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{cancel, foot};
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::Row;
@@ -116,13 +115,12 @@ pub(super) fn pairs(
     planes: &OnPlanes,
     (mut own, mut candidates): (SearchFaces<'_>, Candidates<'_>),
     normals: Normals,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    let averaged = slave.node_normals(planes, |_, _, _| true, progress)?;
+    let averaged = slave.node_normals(planes, |_, _, _| true)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
         if ray.1 == Vector3::zeros() {
             return Err(cancel(node));
@@ -132,7 +130,7 @@ pub(super) fn pairs(
         }
     }
     let mut report = SurfaceReport::default();
-    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, progress)?;
+    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
         for (slave, part) in slaves {
@@ -141,15 +139,14 @@ pub(super) fn pairs(
         }
         Ok(pair_of_row(sides, planes, (node, row), met[&node].normal))
     };
-    let mut found = pairs_of_rows(slave, rows, report, pair, progress)?;
-    for at in 0..slave.count() {
-        progress.goes_on()?;
-        if !slave.face(at).nodes.iter().any(|node| met.contains_key(node)) {
-            found.report.uncovered_faces.push(at);
-        }
+    let mut found = pairs_of_rows(slave, rows, report, pair)?;
+    for face in slave.each_face() {
+        let (at, face) = face?;
+        let is_met = face.nodes.iter().any(|node| met.contains_key(node));
+        found.report.uncovered_faces.extend((!is_met).then_some(at));
     }
     // Their memory is given back between questions.
-    met.into_iter().try_for_each(|_| progress.goes_on())?;
-    candidates.look_beyond(sides, &mut found.report, progress)?;
+    met.into_iter().try_for_each(|_| slave.progress.goes_on())?;
+    candidates.look_beyond(sides, &mut found.report)?;
     Ok(found)
 }

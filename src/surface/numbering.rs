@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePair;
 use super::sector::Sector;
 use super::sector_boundary::second_boundary;
@@ -48,11 +47,7 @@ impl Numbering {
     ///
     /// # Errors
     /// Two nodes at one place of a boundary; what stops the pairing.
-    pub(super) fn relate(
-        &mut self,
-        (side, on): (&Side<'_>, &OnPlanes),
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<(), Error> {
+    pub(super) fn relate(&mut self, (side, on): (&Side<'_>, &OnPlanes)) -> Result<(), Error> {
         for Mirror { motion, nodes } in &on.mirrors {
             nodes.iter().for_each(|node| self.lay(*node, (*motion, *node)));
         }
@@ -63,7 +58,7 @@ impl Numbering {
                 self.lay(node, (ahead, node));
                 self.lay(node, (back, node));
             }
-            for (second, first) in second_boundary(&ahead, side, progress)? {
+            for (second, first) in second_boundary(&ahead, side)? {
                 self.lay(second, (ahead, first));
                 self.lay(first, (back, second));
                 seconds.insert(second);

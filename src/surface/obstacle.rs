@@ -7,7 +7,6 @@ use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::Side;
 use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::row::Row;
 use super::sector::Sector;
@@ -73,7 +72,6 @@ pub(super) fn pairs(
     side: Side<'_>,
     obstacle: &Obstacle,
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     // A shape has normals of its own and no rim, and needs no images of planes.
     let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
@@ -82,11 +80,11 @@ pub(super) fn pairs(
     let settings = &settings.checked(side.dim)?;
     let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
     let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
-    let side = side.checked(unit.inside, settings, progress)?;
+    let side = side.checked(unit.inside, settings)?;
     let mut on = OnPlanes::new(&side, settings)?;
-    let images = WithImages::new(settings, (&side, &mut on), None, progress)?;
+    let images = WithImages::new(settings, (&side, &mut on), None)?;
     let [all, _] = images.as_ref().map_or([side; 2], |images| images.sides(&side, &side));
-    let mut found = facing(&all, (&obstacle, &on), settings, progress)?;
+    let mut found = facing(&all, (&obstacle, &on), settings)?;
     if let Some(images) = images {
         found = images.own_pairs(found, &side)?;
     }
@@ -98,11 +96,10 @@ fn facing(
     side: &Side<'_>,
     (obstacle, on): (&ExactShape, &OnPlanes),
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
-    progress.expects(side.count());
-    self_overlap::check(side, &mut SearchFaces::new(side, progress)?, reach, progress)?;
+    side.progress.expects(side.count());
+    self_overlap::check(side, &mut SearchFaces::new(side)?, reach)?;
     let obstacle = &Repeated::new(obstacle, settings.sector, side)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
@@ -123,7 +120,7 @@ fn facing(
     let mut report =
         SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    let rows = whole_rows(meets, side, &mut report, progress)?;
+    let rows = whole_rows(meets, side, &mut report)?;
     let pair = |node, row: Row| {
         let pair = pair_of_row([side; 2], on, (node, row), facing[&node].1);
         let slaves = pair.slaves().iter();
@@ -132,7 +129,7 @@ fn facing(
         let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    let mut found = pairs_of_rows(side, rows, report, pair, progress)?;
+    let mut found = pairs_of_rows(side, rows, report, pair)?;
     on.tell(&mut found.held);
     Ok(found)
 }

@@ -101,9 +101,9 @@ impl KeptSurfaces {
         if moved.iter().any(|x| !x.is_finite()) {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
-        let progress = &mut PairingProgress::new(monitor);
+        let progress = &PairingProgress::new(monitor);
         let held = &self.held(pairs);
-        let slaves = &self.before_and_after("slave", &moved, &self.slave)?;
+        let slaves = &self.before_and_after(("slave", progress), &moved, &self.slave)?;
         match &self.master {
             KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
@@ -115,19 +115,19 @@ impl KeptSurfaces {
                     (before <= least && now > least).then_some((now, at, None))
                 };
                 let faces = (held.asked.iter().copied(), true);
-                Ok(self.deepest(Found::default(), faces, slaves, progress, through)?.0)
+                Ok(self.deepest(Found::default(), faces, slaves, through)?.0)
             }
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
-                let masters = &self.before_and_after("master", &moved, lists)?;
-                let (near, found) = self.through_faces(held, [slaves, masters], progress)?;
+                let masters = &self.before_and_after(("master", progress), &moved, lists)?;
+                let (near, found) = self.through_faces(held, [slaves, masters])?;
                 let mut lists = [vec![0], Vec::new()];
                 for &at in &held.asked {
                     lists[1].extend(slaves[0].nodes(at));
                     lists[0].push(lists[1].len());
                 }
-                let asked = &self.before_and_after("slave", &moved, &lists)?;
-                self.masters_through((held, near), [asked, masters], found, progress)
+                let asked = &self.before_and_after(("slave", progress), &moved, &lists)?;
+                self.masters_through((held, near), [asked, masters], found)
             }
         }
     }
@@ -165,14 +165,13 @@ impl KeptSurfaces {
         &self,
         held: &Held,
         [slaves, masters]: [&[Side<'_>; 2]; 2],
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(BTreeSet<usize>, Found), Error> {
-        let opposite = SearchFaces::new(&masters[1], progress)?;
+        let opposite = SearchFaces::new(&masters[1])?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
         let mut candidates = Self::candidates(opposite, asked);
         let mut near = BTreeSet::new();
         for &at in &held.asked {
-            progress.goes_on()?;
+            masters[1].progress.goes_on()?;
             let normal = slaves[0].face(at).middle_normal();
             near.extend(candidates.of_face(&slaves[1].face(at), normal));
         }
@@ -183,7 +182,7 @@ impl KeptSurfaces {
             Some((found.0, at, Some(found.1)))
         };
         let faces = (held.asked.iter().copied(), true);
-        let found = self.deepest(Found::default(), faces, slaves, progress, through)?;
+        let found = self.deepest(Found::default(), faces, slaves, through)?;
         Ok((near, found))
     }
 
@@ -223,9 +222,8 @@ impl KeptSurfaces {
         (held, near_asked): (&Held, BTreeSet<usize>),
         [slaves, masters]: [&[Side<'_>; 2]; 2],
         found: Found,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Penetration, Error> {
-        let opposite = SearchFaces::new(&slaves[1], progress)?;
+        let opposite = SearchFaces::new(&slaves[1])?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
         let through = |of_master, point: Point<'_>| {
             let ([first, _], ..) = point;
@@ -240,7 +238,7 @@ impl KeptSurfaces {
             Some((depth, held.asked[at], Some(of_master)))
         };
         let faces = (near_asked.into_iter(), false);
-        Ok(self.deepest(found, faces, masters, progress, through)?.0)
+        Ok(self.deepest(found, faces, masters, through)?.0)
     }
 
     /// Adds points of some faces of a side to what is found: their nodes, and their middles if these are wanted. `through` tells how
@@ -250,13 +248,12 @@ impl KeptSurfaces {
         (mut found, told): Found,
         (faces, wants_middles): (impl Iterator<Item = usize>, bool),
         [before, after]: &[Side<'_>; 2],
-        progress: &mut PairingProgress<'_, '_>,
         mut through: impl FnMut(usize, Point<'_>) -> Option<Passed>,
     ) -> Result<Found, Error> {
         let (mut passed, mut counted) = (HashSet::new(), HashSet::new());
         let mut asked = vec![0; self.coordinates.len()];
         for at in faces {
-            progress.goes_on()?;
+            before.progress.goes_on()?;
             let faces = [&before.face(at), &after.face(at)];
             let (kind, nodes) = (faces[0].kind, faces[0].nodes);
             let places = kind.places().iter().copied().zip(nodes.iter().copied().map(Some));

@@ -9,8 +9,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::digits::ON_PLANE;
+use super::face::Face;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::{Rims, SurfaceSettings};
@@ -59,15 +59,14 @@ pub(super) fn fold(
     (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
-    let (kept, little) = by_cover((settings, held), rows, (slave, uncovered), progress)?;
+    let (kept, little) = by_cover((settings, held), rows, (slave, uncovered))?;
     let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
-    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2, progress)?;
+    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), 2)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
         let takes = |home: &usize| homes.get(home).is_some_and(may) && planes.stays(*home, node);
         let near = beside[&node].clone();
@@ -101,7 +100,7 @@ pub(super) fn fold(
         for (home, worth) in into.iter().filter(|(_, worth)| *worth > 0.0) {
             rows.get_mut(home).expect("a home keeps its row").take_in(&row, worth / sum);
         }
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let distance = (slave.position(into[0].0) - slave.position(node)).norm();
         Ok(Fold { node, into: into[0].0, distance })
     };
@@ -114,17 +113,16 @@ fn by_cover(
     (settings, held): (&SurfaceSettings, &BTreeSet<usize>),
     rows: &BTreeMap<usize, Row>,
     on: (&Side<'_>, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(Vec<usize>, Vec<Weight>), Error> {
     let (mut enough, mut little) = (Vec::new(), Vec::new());
-    let least = least_covers(settings.rims, rows, on, progress)?;
-    let beside = beside((on.0, &[]), held.iter().copied(), 1, progress)?;
+    let least = least_covers(settings.rims, rows, on)?;
+    let beside = beside((on.0, &[]), held.iter().copied(), 1)?;
     let moves_beside = |node: &usize, row: &Row| {
         let moves = |other: &usize| !settings.is_supported(*other, row.normal);
         beside.get(node).is_some_and(|near| near.iter().any(moves))
     };
     for (&node, row) in rows {
-        progress.goes_on()?;
+        on.0.progress.goes_on()?;
         match least.get(&node).is_none_or(|least| row.cover() >= *least) {
             true if moves_beside(&node, row) => little.push((node, 0.0)),
             true => enough.push(node),
@@ -140,7 +138,6 @@ fn least_covers(
     rims: Rims,
     rows: &BTreeMap<usize, Row>,
     (slave, uncovered): (&Side<'_>, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, f64>, Error> {
     let few = |row: &Row| row.cover() < LEAST_COVER - SAME_COVER;
     let at_rims: Vec<usize> =
@@ -148,13 +145,13 @@ fn least_covers(
     if rims == Rims::Keep {
         return Ok(at_rims.into_iter().map(|node| (node, SAME_COVER)).collect());
     }
-    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, progress)?;
+    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR)?;
     // From node to node go the best ones alone: where many faces meet in a node all are near each other.
     let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
     for _ in 0..NEAR {
         let mut next = HashMap::with_capacity(beside.len());
         for (&node, around) in &beside {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![*at]);
             let near = around.iter().chain([&node]).flat_map(known).collect();
             next.insert(node, holders(near, rows, (slave, rows[&node].normal.normalize())));
@@ -217,17 +214,15 @@ fn beside(
     (slave, without): (&Side<'_>, &[usize]),
     nodes: impl Iterator<Item = usize>,
     layers: usize,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
     let mut found: HashMap<usize, BTreeSet<usize>> = HashMap::new();
     let mut next: BTreeSet<usize> = nodes.collect();
     for _ in 0..layers {
         let mut around: HashMap<usize, BTreeSet<usize>> =
             next.into_iter().map(|node| (node, BTreeSet::new())).collect();
-        for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
-            progress.goes_on()?;
-            let nodes = slave.face(at).nodes;
-            for node in nodes {
+        for face in slave.each_face() {
+            let (at, Face { nodes, .. }) = face?;
+            for node in nodes.iter().filter(|_| without.binary_search(&at).is_err()) {
                 if let Some(list) = around.get_mut(node) {
                     list.extend(nodes.iter().filter(|&other| other != node));
                 }

@@ -6,7 +6,6 @@ use super::candidates::SearchFaces;
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::plane::Plane;
 use super::sector::Sector;
 use super::sweep::Sweep;
@@ -27,7 +26,6 @@ pub(super) const CLOSE: f64 = 0.01;
 pub(super) fn second_boundary(
     motion: &Motion,
     side: &Side<'_>,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
     let nodes = side.all_nodes();
     let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
@@ -35,7 +33,7 @@ pub(super) fn second_boundary(
     let allowed = |node: &usize| near.max(side.left_open.min(PARTNER * rim.edge(*node)));
     let allowed: Vec<f64> = nodes.iter().map(allowed).collect();
     let widest = allowed.iter().copied().fold(near, f64::max);
-    let found = at_images(&places, |x| motion.of(x), widest, || progress.goes_on())?;
+    let found = at_images(&places, |x| motion.of(x), widest, || side.progress.goes_on())?;
     let mut second = BTreeMap::new();
     for (place, mut same) in found.into_iter().enumerate() {
         let image = motion.of(places[place]);
@@ -115,7 +113,6 @@ impl Rim {
         motion: &Motion,
         side: &Side<'_>,
         has_partner: impl Fn(usize) -> bool,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<(usize, [usize; 2])>, Error> {
         let nodes: Vec<usize> = self.beside.keys().copied().collect();
         let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
@@ -123,7 +120,7 @@ impl Rim {
             self.beside[node].iter().map(move |&other| (side.of_host(other) - x).norm())
         });
         let longest = lengths.fold(side.left_open, f64::max);
-        let found = at_images(&places, |x| motion.of(x), longest, || progress.goes_on())?;
+        let found = at_images(&places, |x| motion.of(x), longest, || side.progress.goes_on())?;
         for ((&node, x), near) in nodes.iter().zip(&places).zip(found) {
             let (image, most) = (motion.of(*x), CLOSE * self.edge(node));
             if has_partner(node) || (image - x).norm() <= most.max(side.left_open) {
@@ -180,16 +177,15 @@ pub(super) fn at_images<E>(
 pub(super) fn check_boundaries(
     slave: &Side<'_>,
     (sector, images): (&Sector, &Images),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
         images.on_second().iter().flat_map(|(second, (first, _))| [*second, *first]).collect();
-    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, progress)?;
+    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
     for node in inner {
         for motion in sector.steps().as_flattened() {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let x = slave.position(node);
             let image = slave.scale * motion.of(x / slave.scale);
             if (image - x).norm() <= near {
@@ -206,7 +202,7 @@ pub(super) fn check_boundaries(
             }
         }
     }
-    check_rim(slave, sector, &on_boundary, progress)
+    check_rim(slave, sector, &on_boundary)
 }
 
 /// Refuses a slave side on the rim of which the image of a node lies that is none of its nodes, though surfaces meet there but for
@@ -215,12 +211,11 @@ fn check_rim(
     slave: &Side<'_>,
     sector: &Sector,
     on_boundary: &BTreeSet<usize>,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let rim = Rim::new(slave);
     for motion in sector.steps().as_flattened() {
         let has_partner = |node: usize| on_boundary.contains(&node);
-        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, progress)? {
+        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner)? {
             let place = format!("at the edge of nodes {} and {} and is none", index(a), index(b));
             return Err(no_match(sector, node, &place));
         }

@@ -6,7 +6,6 @@
 use super::candidates::{SAME_WAY, SearchFaces};
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
-use super::pairing_progress::PairingProgress;
 use super::sweep::Sweep;
 use crate::error::Error;
 
@@ -25,11 +24,10 @@ pub(super) fn check(
     side: &Side<'_>,
     SearchFaces { tree, normals, .. }: &mut SearchFaces<'_>,
     reach: f64,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
     for at in 0..side.count() {
-        progress.step()?;
+        side.progress.step()?;
         let face = side.face(at);
         let distance = reach.min(UPON * face.size());
         tree.near(&Sweep::of_face(&face, normals[at], [distance; 2]), &mut near);

@@ -34,7 +34,6 @@ struct Inside {
 }
 
 /// The faces of a side.
-#[derive(Debug)]
 pub(super) struct Tree<'a> {
     side: &'a Side<'a>,
     boxes: Vec<Bounds>,

@@ -13,7 +13,6 @@ use super::fitted_normals::{Fitted, SMOOTH, fitted};
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
-use super::pairing_progress::PairingProgress;
 use super::projected_shapes::Opposite;
 use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
@@ -59,17 +58,14 @@ impl<'a> TrueSides<'a> {
     pub(super) fn new(
         [slave, master]: [&'a Side<'a>; 2],
         settings: &SurfaceSettings,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
         let shapes = &settings.shapes;
         if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
             return Ok(None);
         }
-        let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
+        let side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
             TrueShape::Facets => Ok(TrueSide::default()),
-            TrueShape::Fitted => {
-                Ok(TrueSide { fitted: Some(fitted(side, progress)?), exact: None })
-            }
+            TrueShape::Fitted => Ok(TrueSide { fitted: Some(fitted(side)?), exact: None }),
             TrueShape::Exact(shape) => {
                 let refuse = |message: String| {
                     Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
