@@ -1,6 +1,7 @@
 //! Planes, spheres, cylinders, cones and tori: distance and normal of a point. They are rigid obstacles, and true
 //! shapes of meshed sides.
 
+use super::motion::Motion;
 use super::plane::tangents;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -174,6 +175,12 @@ impl ExactShape {
     pub(super) fn size(&self) -> f64 {
         let radii = if self.form == Form::Cone { 0.0 } else { self.radii.iter().sum() };
         self.point.lp_norm(1) + radii
+    }
+
+    /// Its image by a motion in the host's unit.
+    pub(super) fn moved(&self, by: &Motion, scale: f64) -> ExactShape {
+        let point = scale * by.of(self.point / scale);
+        ExactShape { point, axis: by.turn * self.axis, ..*self }
     }
 
     /// `true` of a shape that has an inside and is not hollow.

@@ -109,11 +109,7 @@ impl Numbering {
     /// # Errors
     /// There are too many of them.
     pub(super) fn place(&mut self, motion: &Motion) -> Result<usize, Error> {
-        let (middle, size) = self.around;
-        let is_same = |other: &Motion| {
-            let apart = (motion.of(middle) - other.of(middle)).amax();
-            apart + size * (motion.turn - other.turn).amax() <= self.near
-        };
+        let is_same = |other: &Motion| motion.apart(other, self.around) <= self.near;
         if let Some(place) = self.images.motions().iter().position(is_same) {
             return Ok(place);
         }
