@@ -9,7 +9,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::assembly::{pair_of_row, pairs_of_rows};
 use super::candidates::{Candidates, SAME_WAY, SearchFaces};
 use super::control::Edges;
 use super::digits::ON_PLANE;
@@ -20,7 +19,7 @@ use super::overlap::{Meeting, Overlaps, SlaveFace};
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
-use super::row::{Row, add_face};
+use super::row::{Row, add_face, pair_of_row, pairs_of_rows};
 use super::self_overlap::UPON;
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;

@@ -9,14 +9,13 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::{Candidates, SearchFaces};
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{cancel, foot};
 use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
-use super::row::Row;
+use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::settings::Normals;
 use super::shape::{BEYOND, Local};
 use super::symmetry::OnPlanes;

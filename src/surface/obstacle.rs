@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
 use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
-use super::row::Row;
+use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::sector::Sector;
 use super::self_overlap;
 use super::settings::SurfaceSettings;

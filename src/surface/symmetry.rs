@@ -14,8 +14,7 @@ use super::normals::{at_nodes, direction};
 use super::plane;
 use super::sector::Sector;
 use super::self_overlap::UPON;
-use super::settings::SurfaceSettings;
-use super::symmetry_plane::SymmetryPlane;
+use super::settings::{SurfaceSettings, SymmetryPlane};
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3, unit, without};
 
