@@ -45,25 +45,7 @@ impl Reach {
     }
 }
 
-/// The faces of a side as a search needs them.
-pub(super) struct SearchFaces<'a> {
-    side: &'a Side<'a>,
-    pub(super) tree: Tree<'a>,
-    /// Unit normals in the middle of the faces.
-    pub(super) normals: Vec<Vector3>,
-}
-
-impl<'a> SearchFaces<'a> {
-    /// # Errors
-    /// What stops the pairing.
-    pub(super) fn new(side: &'a Side<'a>) -> Result<SearchFaces<'a>, Error> {
-        let mut normals = Vec::with_capacity(side.count());
-        for face in side.each_face() {
-            normals.push(face?.1.middle_normal());
-        }
-        Ok(SearchFaces { side, tree: Tree::new(side), normals })
-    }
-
+impl Tree<'_> {
     /// True if the body of these faces ends between a point of its surface with an outward normal and a depth below it, at
     /// least so far below: a master face that overlaps by that depth is seen through the body, and touches another part of
     /// its surface, if any.
@@ -77,7 +59,7 @@ impl<'a> SearchFaces<'a> {
             return false;
         }
         let mut near = Vec::new();
-        self.tree.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
+        self.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
         let plane = Plane::new(self.side.dim, point, normal);
         near.into_iter().filter(|&at| self.normals[at].dot(&normal) < 0.0).any(|at| {
             let below = plane.meeting(&self.side.face(at));
@@ -89,7 +71,7 @@ impl<'a> SearchFaces<'a> {
 
 /// The master faces, to be asked for those near a slave face.
 pub(super) struct Candidates<'a> {
-    master: SearchFaces<'a>,
+    master: Tree<'a>,
     pub(super) reach: Reach,
     /// No face of either side is further away from another one.
     span: f64,
@@ -101,7 +83,7 @@ pub(super) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    pub(super) fn new(master: SearchFaces<'a>, reach: Reach, span: f64) -> Candidates<'a> {
+    pub(super) fn new(master: Tree<'a>, reach: Reach, span: f64) -> Candidates<'a> {
         Candidates { master, reach, span, found: Vec::new(), searched: 0, not_opposed: 0 }
     }
 
@@ -126,7 +108,7 @@ impl<'a> Candidates<'a> {
     }
 
     fn near(&mut self, sweep: &Sweep<'_>, normal: Vector3) -> &[usize] {
-        self.searched += self.master.tree.near(sweep, &mut self.found);
+        self.searched += self.master.near(sweep, &mut self.found);
         let before = self.found.len();
         self.found.retain(|&face| self.master.normals[face].dot(&normal) < OPPOSED);
         self.not_opposed += before - self.found.len();

@@ -9,7 +9,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::candidates::{Candidates, SAME_WAY, SearchFaces};
+use super::candidates::{Candidates, SAME_WAY};
 use super::control::Edges;
 use super::digits::ON_PLANE;
 use super::face::Face;
@@ -23,6 +23,7 @@ use super::row::{Row, add_face, pair_of_row, pairs_of_rows};
 use super::self_overlap::UPON;
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::true_shape::TrueSides;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -34,7 +35,7 @@ type Cover = (Option<Covered>, bool);
 /// The search for what lies over slave faces, with the memory that it uses from face to face.
 struct Search<'a> {
     sides: [&'a Side<'a>; 2],
-    own: SearchFaces<'a>,
+    own: Tree<'a>,
     candidates: Candidates<'a>,
     shapes: Option<TrueSides<'a>>,
     overlaps: Overlaps,
@@ -49,7 +50,7 @@ struct Search<'a> {
 pub(super) fn pairs<'a>(
     sides: [&'a Side<'a>; 2],
     planes: &'a OnPlanes,
-    (own, candidates): (SearchFaces<'a>, Candidates<'a>),
+    (own, candidates): (Tree<'a>, Candidates<'a>),
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;

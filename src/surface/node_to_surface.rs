@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::{Candidates, SearchFaces};
+use super::candidates::Candidates;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{cancel, foot};
@@ -19,6 +19,7 @@ use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::settings::Normals;
 use super::shape::{BEYOND, Local};
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -65,7 +66,7 @@ fn meets(
     master: &Side<'_>,
     (x, averaged): (Vector3, Vector3),
     normals: Normals,
-    (own, candidates): (&mut SearchFaces<'_>, &mut Candidates<'_>),
+    (own, candidates): (&mut Tree<'_>, &mut Candidates<'_>),
 ) -> Option<MasterPoint> {
     let plane = Plane::new(master.dim, x, averaged);
     let reach = candidates.reach;
@@ -112,7 +113,7 @@ fn meets(
 pub(super) fn pairs(
     sides: [&Side<'_>; 2],
     planes: &OnPlanes,
-    (mut own, mut candidates): (SearchFaces<'_>, Candidates<'_>),
+    (mut own, mut candidates): (Tree<'_>, Candidates<'_>),
     normals: Normals,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;

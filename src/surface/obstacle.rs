@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::Side;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
@@ -11,6 +10,7 @@ use super::sector::Sector;
 use super::self_overlap;
 use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::unit::Unit;
 use super::with_images::WithImages;
 use crate::error::{Argument, Error, index};
@@ -85,7 +85,7 @@ fn facing(
 ) -> Result<SurfacePairs, Error> {
     let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
     side.progress.expects(side.count());
-    self_overlap::check(side, &mut SearchFaces::new(side)?, reach)?;
+    self_overlap::check(side, &mut Tree::new(side)?, reach)?;
     let obstacle = &Repeated::new(obstacle, settings.sector, side)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {

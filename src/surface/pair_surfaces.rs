@@ -1,13 +1,14 @@
 //! A surface and what it may touch to pairs. A rigid mesh is paired as a master is, and then left out of the rows, as it does
 //! not move.
 
-use super::candidates::{Candidates, Reach, SearchFaces};
+use super::candidates::{Candidates, Reach};
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::surfaces::{Master, Surfaces};
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::unit::Unit;
 use super::with_images::WithImages;
 use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
@@ -114,8 +115,8 @@ fn search(
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
     slave.progress.goes_on()?;
-    let mut own = SearchFaces::new(slave)?;
-    let mut opposite = SearchFaces::new(master)?;
+    let mut own = Tree::new(slave)?;
+    let mut opposite = Tree::new(master)?;
     slave.progress.expects(2 * slave.count() + master.count());
     self_overlap::check(slave, &mut own, reach.overlap)?;
     if settings.pairing == Pairing::DualMortar {

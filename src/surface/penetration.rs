@@ -15,7 +15,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use super::candidates::{Candidates, Reach, SearchFaces};
+use super::candidates::{Candidates, Reach};
 use super::digits::ON_PLANE;
 use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
@@ -25,6 +25,7 @@ use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
+use super::tree::Tree;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
@@ -166,7 +167,7 @@ impl KeptSurfaces {
         held: &Held,
         [slaves, masters]: [&[Side<'_>; 2]; 2],
     ) -> Result<(BTreeSet<usize>, Found), Error> {
-        let opposite = SearchFaces::new(&masters[1])?;
+        let opposite = Tree::new(&masters[1])?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
         let mut candidates = Self::candidates(opposite, asked);
         let mut near = BTreeSet::new();
@@ -187,11 +188,8 @@ impl KeptSurfaces {
     }
 
     /// The search for faces behind others, however deep.
-    fn candidates<'s>(
-        opposite: SearchFaces<'s>,
-        asked: impl Iterator<Item = Bounds>,
-    ) -> Candidates<'s> {
-        let bounds = asked.chain(opposite.tree.bounds()).reduce(|a, b| a.with(&b));
+    fn candidates<'s>(opposite: Tree<'s>, asked: impl Iterator<Item = Bounds>) -> Candidates<'s> {
+        let bounds = asked.chain(opposite.bounds()).reduce(|a, b| a.with(&b));
         let span = bounds.map_or(0.0, |all| all.diagonal());
         Candidates::new(opposite, Reach { overlap: span, open: 0.0, layer: span }, span)
     }
@@ -223,7 +221,7 @@ impl KeptSurfaces {
         [slaves, masters]: [&[Side<'_>; 2]; 2],
         found: Found,
     ) -> Result<Penetration, Error> {
-        let opposite = SearchFaces::new(&slaves[1])?;
+        let opposite = Tree::new(&slaves[1])?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
         let through = |of_master, point: Point<'_>| {
             let ([first, _], ..) = point;

@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::candidates::SearchFaces;
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::plane::Plane;
 use super::sector::Sector;
 use super::sweep::Sweep;
+use super::tree::Tree;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3};
 
@@ -180,7 +180,7 @@ pub(super) fn check_boundaries(
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
         images.on_second().iter().flat_map(|(second, (first, _))| [*second, *first]).collect();
-    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave)?;
+    let mut tree = Tree::new(slave)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
     for node in inner {
@@ -193,7 +193,7 @@ pub(super) fn check_boundaries(
             }
             tree.near(&Sweep::of_point(&image, vector3::axis(0), [near; 2]), &mut found);
             let holds = |at: &&usize| {
-                let plane = Plane::new(slave.dim, image, normals[**at]);
+                let plane = Plane::new(slave.dim, image, tree.normals[**at]);
                 plane.meeting(&slave.face(**at)).is_some_and(|(_, height)| height.abs() <= near)
             };
             if let Some(face) = found.iter().find(holds) {
