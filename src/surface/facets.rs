@@ -36,10 +36,8 @@ pub(super) fn stand_off(
     let [own, opposite] = settings.shapes.map(|shape| shape == TrueShape::Facets);
     // Of nodes against surfaces slave nodes are on the true surface.
     let own = own && settings.pairing == Pairing::DualMortar;
-    let of_side = |side, is_of_facets| match is_of_facets {
-        true => at_all_nodes(side),
-        false => Ok(Vec::new()),
-    };
+    let of_side =
+        |side, is_of_facets| if is_of_facets { at_all_nodes(side) } else { Ok(Vec::new()) };
     let sides = [of_side(slave, own)?, of_side(master, opposite)?];
     let mean = |away: &[f64], nodes: &[Weight]| -> f64 {
         nodes.iter().map(|(node, part)| part * away.get(*node).unwrap_or(&0.0)).sum()

@@ -56,7 +56,7 @@ pub struct Penetration {
 struct Held {
     /// By place of the node.
     nodes: Vec<bool>,
-    uncovered: Vec<bool>,
+    uncovered: HashSet<usize>,
     asked: Vec<usize>,
 }
 
@@ -64,7 +64,7 @@ impl Held {
     /// The least depth that counts of a point of a slave face: at a node, or in the middle.
     fn least(&self, at: usize, face: &Face<'_>, place: Option<usize>) -> f64 {
         let is_held = |place: &usize| self.nodes[*place];
-        let of_face = || !self.uncovered[at] && face.nodes.iter().any(is_held);
+        let of_face = || !self.uncovered.contains(&at) && face.nodes.iter().any(is_held);
         face.size() * least_share(place.as_ref().map_or_else(of_face, is_held))
     }
 }
@@ -135,28 +135,21 @@ impl KeptSurfaces {
 
     fn held(&self, pairs: &SurfacePairs) -> Held {
         let [start, places] = &self.slave;
-        let marked = |nodes: &mut dyn Iterator<Item = usize>| {
-            let mut marks = vec![false; self.nodes.len()];
-            let places = nodes.flat_map(|node| self.nodes.binary_search(&node));
-            places.for_each(|place| marks[place] = true);
-            for (second, (first, _)) in pairs.images.on_second() {
-                let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
-                let both = second.into_iter().zip(first);
-                both.for_each(|(second, first)| marks[second] = marks[first]);
-            }
-            marks
+        let home = |node: &usize| pairs.images.home(*node).0;
+        let marks = |nodes: HashSet<usize>| -> Vec<bool> {
+            self.nodes.iter().map(|node| nodes.contains(&home(node))).collect()
         };
-        let paired = marked(&mut pairs.pairs.iter().map(|pair| pair.slave));
-        let folded = marked(&mut pairs.report.folded.iter().map(|fold| fold.node));
-        let [mut uncovered, mut asked] = [(); 2].map(|()| vec![false; start.len() - 1]);
-        pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
-        let in_part = pairs.report.uncovered_faces.iter().chain(&pairs.report.held_in_part);
-        in_part.for_each(|&at| asked[at] = true);
-        let of_pairs =
-            |at: usize| places[start[at]..start[at + 1]].iter().all(|&place| paired[place]);
-        let asked = (0..asked.len()).filter(|&at| asked[at] || !of_pairs(at)).collect();
-        let nodes =
-            paired.into_iter().zip(folded).map(|(paired, folded)| paired || folded).collect();
+        let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
+        let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
+        let set = |faces: &[usize]| faces.iter().copied().collect::<HashSet<usize>>();
+        let uncovered = set(&pairs.report.uncovered_faces);
+        let in_part = set(&pairs.report.held_in_part);
+        let is_asked = |at: &usize| {
+            let of_pairs = || places[start[*at]..start[at + 1]].iter().all(|&place| paired[place]);
+            uncovered.contains(at) || in_part.contains(at) || !of_pairs()
+        };
+        let asked = (0..start.len() - 1).filter(is_asked).collect();
+        let nodes = paired.iter().zip(folded).map(|(paired, folded)| *paired || folded).collect();
         Held { nodes, uncovered, asked }
     }
 
