@@ -135,7 +135,7 @@ impl<'a> Candidates<'a> {
             slave.progress.goes_on()?;
             let face = slave.face(at);
             let normal = face.middle_normal();
-            let in_plane = SlaveFace::new(&face, normal);
+            let in_plane = SlaveFace::new(&face, normal, 0);
             let mut distances = |masters: &[usize]| {
                 let mut found = Vec::new();
                 for &other in masters {

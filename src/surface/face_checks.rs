@@ -117,9 +117,7 @@ impl Side<'_> {
         let mut again = Vec::new();
         for face in 0..self.count() {
             self.progress.goes_on()?;
-            let corners = self.corners(face);
-            for (i, &a) in corners.iter().enumerate() {
-                let b = corners[(i + 1) % corners.len()];
+            for (i, [a, b]) in self.edges(face).enumerate() {
                 // On a line the node and its end: 0 if it begins there, 1 if it ends there.
                 let [key, opposite] =
                     if self.dim == 2 { [(a, i), (a, 1 - i)] } else { [(a, b), (b, a)] };

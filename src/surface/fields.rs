@@ -180,7 +180,11 @@ impl SurfacePairs {
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
-        let on_second = self.motions_to_second();
+        // Faces of the model are around all images of a node on second boundaries: each carries an equal part of the pair.
+        let mut on_second: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
+        for (first, motion) in self.images.on_second().values() {
+            on_second.entry(*first).or_default().push(*motion);
+        }
         for (j, pair) in pairs.clone().zip(&self.pairs[pairs]) {
             let of_pair = &results.force[dim * j..dim * (j + 1)];
             let acting = pair.to_host(of_pair[0], &of_pair[1..]);
@@ -208,16 +212,6 @@ impl SurfacePairs {
             (force.x, moment) = (0.0, Vector3::zeros());
         }
         Ok(Resultant { force: force.into(), moment: moment.into(), ..resultant })
-    }
-
-    /// The motions to the images on second boundaries of each node that has any. Faces of the model are around all of
-    /// these nodes, so each carries an equal part of the pair.
-    fn motions_to_second(&self) -> BTreeMap<usize, Vec<Motion>> {
-        let mut motions: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
-        for (first, motion) in self.images.on_second().values() {
-            motions.entry(*first).or_default().push(*motion);
-        }
-        motions
     }
 
     /// Motion of a pair along its tangents since the reference slip.

@@ -128,6 +128,13 @@ impl<'a> Side<'a> {
         &nodes[..self.kind(nodes).corners()]
     }
 
+    /// The edges of a face by their nodes, in order around it; of a line it itself, to and fro.
+    pub(super) fn edges(&self, face: usize) -> impl Iterator<Item = [usize; 2]> {
+        let corners = self.corners(face);
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| [*a, *b])
+    }
+
     /// The kind of a face with these nodes.
     pub(super) fn kind(&self, nodes: &[usize]) -> FaceKind {
         FaceKind::of(self.dim, nodes.len()).expect("the kind has been checked")

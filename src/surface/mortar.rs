@@ -193,7 +193,7 @@ impl<'a> Search<'a> {
     ) -> Result<Vec<Opposite<'a>>, Error> {
         let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
         let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
-        let in_plane = SlaveFace::new(face, normal).for_gaps(of_gaps);
+        let in_plane = SlaveFace::new(face, normal, of_gaps);
         overlaps.points.clear();
         let reach = candidates.reach;
         let mut parts = Vec::new();

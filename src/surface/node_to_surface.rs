@@ -17,7 +17,7 @@ use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
 use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::settings::Normals;
-use super::shape::{BEYOND, Local};
+use super::shape::BEYOND;
 use super::symmetry::OnPlanes;
 use super::tree::Tree;
 use crate::error::Error;
@@ -30,14 +30,6 @@ struct MasterPoint {
     weights: Vec<Weight>,
     /// The unit normal of the pair, outward from the slave's body.
     normal: Vector3,
-}
-
-impl MasterPoint {
-    /// The point of a face at local coordinates.
-    fn new(face: &Face<'_>, at: Local, distance: f64, normal: Vector3) -> MasterPoint {
-        let weights = face.nodes.iter().copied().zip(face.kind.values(at)).collect();
-        MasterPoint { distance, weights, normal }
-    }
 }
 
 /// The meetings that are nearest, up to a rounding, the very nearest first. The order of faces chooses none of their normals: all have
@@ -73,13 +65,15 @@ fn meets(
     let found = candidates.of_point(x, averaged);
     let faces = || found.iter().map(|&at| master.face(at));
     let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
+    let weights =
+        |face: &Face<'_>, at| face.nodes.iter().copied().zip(face.kind.values(at)).collect();
     let along_ray = faces().filter_map(|face| {
         let (at, distance) = plane.meeting(&face).filter(|(_, distance)| reach.holds(*distance))?;
         let normal = match normals {
             Normals::Averaged => averaged,
             Normals::Faces => -unit(face.outward(at))?,
         };
-        Some(MasterPoint::new(&face, at, distance, normal))
+        Some(MasterPoint { distance, weights: weights(&face, at), normal })
     });
     let along_ray = nearest(along_ray, rounding).into_iter().next()?;
     if own.end_above((x, averaged), -along_ray.distance, reach.of_shells()) {
@@ -93,7 +87,8 @@ fn meets(
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x).filter(|(at, _)| face.kind.holds(*at))?;
         let distance = (face.position(at) - x).norm();
-        (distance <= most).then(|| MasterPoint::new(&face, at, distance, -outward))
+        let weights = weights(&face, at);
+        (distance <= most).then_some(MasterPoint { distance, weights, normal: -outward })
     });
     let feet = nearest(perpendicular, rounding);
     let place = |foot: &MasterPoint| master.point(&foot.weights);

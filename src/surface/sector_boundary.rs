@@ -67,11 +67,11 @@ impl Rim {
     fn new(side: &Side<'_>) -> Rim {
         let mut counts: HashMap<[usize; 2], (usize, Option<usize>)> = HashMap::new();
         for face in 0..side.count() {
-            let (nodes, corners) = (side.nodes(face), side.corners(face));
+            let nodes = side.nodes(face);
             let mids: HashMap<usize, usize> =
                 side.kind(nodes).mids().map(|(mid, [a, _])| (a, nodes[mid])).collect();
-            for (i, &a) in corners.iter().enumerate() {
-                let b = if side.dim == 2 { a } else { corners[(i + 1) % corners.len()] };
+            for (i, [a, next]) in side.edges(face).enumerate() {
+                let b = if side.dim == 2 { a } else { next };
                 let (count, mid) = counts.entry([a.min(b), a.max(b)]).or_default();
                 *count += 1;
                 *mid = mids.get(&i).copied().filter(|_| side.dim > 2);
@@ -103,17 +103,17 @@ impl Rim {
         self.edges.get(&node).copied().unwrap_or(0.0)
     }
 
-    /// Two nodes of the rim between which, or at which, the image of another one of its nodes is, but for little of its
-    /// shortest edge; nodes that have partners need none.
+    /// Refuses a slave side on the rim of which, between two nodes or at one, the image of a node of it lies that is none of its
+    /// nodes, but for little of its shortest edge, though surfaces meet there. Nodes that have partners need none.
     ///
     /// # Errors
-    /// What stops the pairing.
-    fn met(
+    /// That; what stops the pairing.
+    fn check(
         &self,
-        motion: &Motion,
+        (sector, motion): (&Sector, &Motion),
         side: &Side<'_>,
-        has_partner: impl Fn(usize) -> bool,
-    ) -> Result<Option<(usize, [usize; 2])>, Error> {
+        partners: &BTreeSet<usize>,
+    ) -> Result<(), Error> {
         let nodes: Vec<usize> = self.beside.keys().copied().collect();
         let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
         let lengths = nodes.iter().zip(&places).flat_map(|(node, x)| {
@@ -123,7 +123,7 @@ impl Rim {
         let found = at_images(&places, |x| motion.of(x), longest, || side.progress.goes_on())?;
         for ((&node, x), near) in nodes.iter().zip(&places).zip(found) {
             let (image, most) = (motion.of(*x), CLOSE * self.edge(node));
-            if has_partner(node) || (image - x).norm() <= most.max(side.left_open) {
+            if partners.contains(&node) || (image - x).norm() <= most.max(side.left_open) {
                 continue;
             }
             let near = near.into_iter().map(|at| nodes[at]);
@@ -137,11 +137,13 @@ impl Rim {
                 let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
                 (a + along * way - image).norm() <= most
             };
-            if let Some(ends) = pairs.find(is_met) {
-                return Ok(Some((node, ends)));
+            if let Some([a, b]) = pairs.find(is_met) {
+                let place =
+                    format!("at the edge of nodes {} and {} and is none", index(a), index(b));
+                return Err(no_match(sector, node, &place));
             }
         }
-        Ok(None)
+        Ok(())
     }
 }
 
@@ -173,7 +175,7 @@ pub(super) fn at_images<E>(
     points.iter().map(of_point).collect()
 }
 
-/// Refuses a slave side on one of whose faces the image of a node lies, and no node there.
+/// Refuses a slave side on one of whose faces, or on whose rim, the image of a node lies, and no node there.
 pub(super) fn check_boundaries(
     slave: &Side<'_>,
     (sector, images): (&Sector, &Images),
@@ -202,25 +204,9 @@ pub(super) fn check_boundaries(
             }
         }
     }
-    check_rim(slave, sector, &on_boundary)
-}
-
-/// Refuses a slave side on the rim of which the image of a node lies that is none of its nodes, though surfaces meet there but for
-/// the digits of coordinates.
-fn check_rim(
-    slave: &Side<'_>,
-    sector: &Sector,
-    on_boundary: &BTreeSet<usize>,
-) -> Result<(), Error> {
-    let rim = Rim::new(slave);
-    for motion in sector.steps().as_flattened() {
-        let has_partner = |node: usize| on_boundary.contains(&node);
-        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner)? {
-            let place = format!("at the edge of nodes {} and {} and is none", index(a), index(b));
-            return Err(no_match(sector, node, &place));
-        }
-    }
-    Ok(())
+    let (rim, steps) = (Rim::new(slave), sector.steps());
+    let mut steps = steps.as_flattened().iter();
+    steps.try_for_each(|motion| rim.check((sector, motion), slave, &on_boundary))
 }
 
 /// The error of a slave node whose image lies where no node is.

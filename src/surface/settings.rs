@@ -180,8 +180,7 @@ impl SurfaceSettings {
                 "axisymmetric: a body of revolution has no sector, leave one of them out",
             );
         }
-        let symmetry =
-            self.planes().map_err(|message| Error::invalid(Argument::Settings, message))?;
+        let symmetry = self.planes()?;
         let (within, shift) = (self.close_within, self.clearance);
         if !(within >= 0.0) {
             return refuse(&format!("close_within is {within}, it must not be negative"));
@@ -221,18 +220,19 @@ impl SurfaceSettings {
     /// The planes of symmetry. The axis of bodies of revolution is none of them: it need not be named.
     ///
     /// # Errors
-    /// A plane that no body of revolution has, in words.
-    fn planes(&self) -> Result<Vec<SymmetryPlane>, String> {
+    /// A plane that no body of revolution has.
+    fn planes(&self) -> Result<Vec<SymmetryPlane>, Error> {
         let mut planes = self.symmetry.clone();
         if self.axisymmetric {
             let axis = |plane: &SymmetryPlane| plane.at == 0.0 && plane.normal[1] == 0.0;
             planes.retain(|plane| plane.normal[0] == 0.0 || !axis(plane));
             if let Some(plane) = planes.iter().find(|plane| plane.normal[0] != 0.0) {
-                return Err(format!(
+                let message = format!(
                     "axisymmetric: a plane of symmetry {} is none of a body of revolution: its planes are across the axis x = 0, \
                      which itself need not be named",
                     plane.name()
-                ));
+                );
+                return Err(Error::invalid(Argument::Settings, message));
             }
         }
         Ok(planes)

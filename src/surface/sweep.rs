@@ -179,15 +179,12 @@ impl<'a> Sweep<'a> {
 
     /// `false` if nothing of a box is met.
     pub(super) fn meets(&self, bounds: &Bounds) -> bool {
-        self.bounds.meets(bounds) && self.is_across(bounds)
-    }
-
-    fn is_across(&self, bounds: &Bounds) -> bool {
         let [middle, half] = bounds.middle_and_half();
-        self.across.iter().all(|(along, low, high)| {
+        let is_at = |(along, low, high): &(Vector3, f64, f64)| {
             let (at, size) = (along.dot(&middle), along.abs().dot(&half));
             at - size <= *high && at + size >= *low
-        })
+        };
+        self.bounds.meets(bounds) && self.across.iter().all(is_at)
     }
 
     /// `false` if all of it lies behind the wall.

@@ -8,7 +8,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::numbering::{Image, Numbering};
@@ -68,7 +67,11 @@ impl WithImages {
         on.see(&numbering.images);
         let mut master = None;
         if let Some((side, on, reach)) = opposite {
-            let near = places(slave, &numbering.images).widened(reach / slave.scale);
+            // A box around the slave and its images, in the host's unit.
+            let of_host = |node: usize| slave.of_host(node);
+            let places = slave.all_nodes().into_iter().map(of_host);
+            let near = Bounds::of(places.chain(numbering.images.positions(of_host)));
+            let near = near.widened(reach / slave.scale);
             let mut of_rigid;
             let of_master = if side.is_rigid() {
                 of_rigid = Numbering::new(sector, side);
@@ -249,10 +252,4 @@ fn images_near(
         }
     }
     Ok(found)
-}
-
-/// A box around a side and its images, in the host's unit.
-fn places(side: &Side<'_>, images: &Images) -> Bounds {
-    let own = side.all_nodes().into_iter().map(|node| side.of_host(node));
-    Bounds::of(own.chain(images.positions(|node| side.of_host(node))))
 }
