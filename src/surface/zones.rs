@@ -4,8 +4,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
 use super::digits::ON_PLANE;
-use super::frames::tangents;
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, tangents};
 use super::sector_boundary::{CLOSE, at_images};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
