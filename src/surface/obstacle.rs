@@ -12,7 +12,6 @@ use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::tree::Tree;
 use super::unit::Unit;
-use super::with_images::WithImages;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
 
@@ -49,36 +48,22 @@ fn refuse<T>(message: &str) -> Result<T, Error> {
     Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
 }
 
-/// Pairs the nodes of a side, whose lists are in order, with an obstacle, up to the search distance (`None` or infinite:
-/// all of them).
+/// The shape with lengths in the unit of the pairing, its numbers checked.
+pub(super) fn checked(shape: &Obstacle, dim: usize, unit: &Unit) -> Result<ExactShape, Error> {
+    shape.check(dim, unit.inside).or_else(|message| refuse(&message))
+}
+
+/// The settings that a shape reads: it has normals of its own and no rim, and needs no images of planes.
+pub(super) fn settings_of_shape(settings: &SurfaceSettings) -> SurfaceSettings {
+    let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
+    SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() }
+}
+
+/// Pairs the nodes of a side that is checked with a shape, up to the search distance (`None` or infinite: all of them).
 ///
 /// # Errors
 /// As [`super::pair_surfaces`] says.
 pub(super) fn pairs(
-    side: Side<'_>,
-    obstacle: &Obstacle,
-    settings: &SurfaceSettings,
-) -> Result<SurfacePairs, Error> {
-    // A shape has normals of its own and no rim, and needs no images of planes.
-    let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
-    let settings =
-        &SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() };
-    let settings = &settings.checked(side.dim)?;
-    let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
-    let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
-    let side = side.checked(unit.inside, settings)?;
-    let mut on = OnPlanes::new(&side, settings)?;
-    let images = WithImages::new(settings, (&side, &mut on), None)?;
-    let [all, _] = images.as_ref().map_or([side; 2], |images| images.sides(&side, &side));
-    let mut found = facing(&all, (&obstacle, &on), settings)?;
-    if let Some(images) = images {
-        found = images.own_pairs(found, &side)?;
-    }
-    unit.of_host(found, settings)
-}
-
-/// The pairs of a side that is checked.
-fn facing(
     side: &Side<'_>,
     (obstacle, on): (&ExactShape, &OnPlanes),
     settings: &SurfaceSettings,
@@ -115,9 +100,7 @@ fn facing(
         let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    let mut found = pairs_of_rows(side, rows, report, pair)?;
-    on.tell(&mut found.held);
-    Ok(found)
+    pairs_of_rows(side, rows, report, pair)
 }
 
 /// Number of faces whose middles look away from a shape.

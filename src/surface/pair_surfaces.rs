@@ -2,11 +2,12 @@
 //! not move.
 
 use super::candidates::{Candidates, Reach};
+use super::exact_shape::Obstacle;
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
-use super::surfaces::{Master, Surfaces};
+use super::surfaces::{Faces, Master, Surfaces};
 use super::symmetry::OnPlanes;
 use super::tree::Tree;
 use super::unit::Unit;
@@ -46,22 +47,27 @@ pub fn pair_surfaces(
     let mut found = match master {
         Master::Faces(faces) => {
             let master = slave.opposite(faces)?;
-            pair_sides([slave, master], settings)?
+            pair_sides([slave, master], None, settings)?
         }
         Master::RigidFaces { coordinates, faces } => {
             let rigid =
                 Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces, progress)?;
-            pair_sides([slave, rigid], settings)?
+            pair_sides([slave, rigid], None, settings)?
         }
-        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings)?,
+        Master::RigidShape(shape) => {
+            let none = Faces { start: &[0], nodes: &[] };
+            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, &[]), none, progress)?;
+            pair_sides([slave, rigid], Some(&shape), &obstacle::settings_of_shape(settings))?
+        }
     };
     found.set_tangents(settings.tangent);
     Ok(found)
 }
 
-/// Pairs two sides whose lists are in order.
+/// Pairs two sides whose lists are in order, or a side with a shape in place of faces of the other one.
 fn pair_sides(
     [slave, master]: [Side<'_>; 2],
+    shape: Option<&Obstacle>,
     settings: &SurfaceSettings,
 ) -> Result<SurfacePairs, Error> {
     let mut settings = settings.checked(slave.dim)?;
@@ -70,7 +76,9 @@ fn pair_sides(
         settings.supports.clear();
     }
     let settings = &settings;
-    let unit = Unit::of(slave.lengths().chain(master.lengths()));
+    let of_shape = shape.map_or(Vec::new(), Obstacle::lengths);
+    let unit = Unit::of(slave.lengths().chain(master.lengths()).chain(of_shape));
+    let shape = shape.map(|shape| obstacle::checked(shape, slave.dim, &unit)).transpose()?;
     let slave = slave.checked(unit.inside, settings)?;
     let master = master.checked(unit.inside, settings)?;
     let [mut on, on_master] = [OnPlanes::new(&slave, settings)?, OnPlanes::new(&master, settings)?];
@@ -79,7 +87,7 @@ fn pair_sides(
     // Normals are fitted to three faces around.
     let is_fitted = settings.shapes.contains(&TrueShape::Fitted);
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
-    let opposite = Some((&master, &on_master, wanted));
+    let opposite = (&master, &on_master, wanted);
     let images = WithImages::new(settings, (&slave, &mut on), opposite)?;
     let settings = &match &images {
         Some(images) => images.with_images(settings, slave.dim),
@@ -87,7 +95,10 @@ fn pair_sides(
     };
     let sides = [slave, master];
     let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
-    let mut found = search(sides.each_ref(), (&on, reach), settings)?;
+    let mut found = match &shape {
+        Some(shape) => obstacle::pairs(&sides[0], (shape, &on), settings)?,
+        None => search(sides.each_ref(), (&on, reach), settings)?,
+    };
     on.tell(&mut found.held);
     if master.is_rigid() {
         found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();

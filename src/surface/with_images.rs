@@ -33,8 +33,7 @@ struct Extended {
 pub(super) struct WithImages {
     numbering: Numbering,
     slave: Extended,
-    /// `None`: against a shape, which has none.
-    master: Option<Extended>,
+    master: Extended,
 }
 
 /// The other side, the nodes of it that stand on planes, and how far from the slave it may be.
@@ -49,7 +48,7 @@ impl WithImages {
     pub(super) fn new(
         settings: &SurfaceSettings,
         (slave, on): (&Side<'_>, &mut OnPlanes),
-        opposite: Option<Opposite<'_, '_>>,
+        (master, on_master, reach): Opposite<'_, '_>,
     ) -> Result<Option<WithImages>, Error> {
         if slave.count() == 0 || settings.sector.is_none() && settings.symmetry.is_empty() {
             return Ok(None);
@@ -65,34 +64,29 @@ impl WithImages {
         let faces = layers_beyond(&mut numbering, (slave, layers))?;
         let own = Extended::new(&mut numbering, slave, &faces)?;
         on.see(&numbering.images);
-        let mut master = None;
-        if let Some((side, on, reach)) = opposite {
-            // A box around the slave and its images, in the host's unit.
-            let of_host = |node: usize| slave.of_host(node);
-            let places = slave.all_nodes().into_iter().map(of_host);
-            let near = Bounds::of(places.chain(numbering.images.positions(of_host)));
-            let near = near.widened(reach / slave.scale);
-            let mut of_rigid;
-            let of_master = if side.is_rigid() {
-                of_rigid = Numbering::new(sector, side);
-                &mut of_rigid
-            } else {
-                &mut numbering
-            };
-            of_master.relate((side, on))?;
-            let faces = images_near(of_master, (side, on), &near)?;
-            master = Some(Extended::new(of_master, side, &faces)?);
-        }
-        let has_some = |side: &Extended| !side.origins.is_empty();
-        let is_alone = !has_some(&own) && !master.as_ref().is_some_and(has_some);
+        // A box around the slave and its images, in the host's unit.
+        let of_host = |node: usize| slave.of_host(node);
+        let places = slave.all_nodes().into_iter().map(of_host);
+        let near = Bounds::of(places.chain(numbering.images.positions(of_host)));
+        let near = near.widened(reach / slave.scale);
+        let mut of_rigid;
+        let of_master = if master.is_rigid() {
+            of_rigid = Numbering::new(sector, master);
+            &mut of_rigid
+        } else {
+            &mut numbering
+        };
+        of_master.relate((master, on_master))?;
+        let faces = images_near(of_master, (master, on_master), &near)?;
+        let master = Extended::new(of_master, master, &faces)?;
+        let has_some = !own.origins.is_empty() || !master.origins.is_empty();
         let all = WithImages { numbering, slave: own, master };
-        Ok(Some(all).filter(|_| sector.is_some() || !is_alone))
+        Ok(Some(all).filter(|_| sector.is_some() || has_some))
     }
 
     /// Both sides with their images.
     pub(super) fn sides<'a>(&'a self, slave: &Side<'a>, master: &Side<'a>) -> [Side<'a>; 2] {
-        let master = self.master.as_ref().map_or(*master, |images| images.on(master));
-        [self.slave.on(slave), master]
+        [self.slave.on(slave), self.master.on(master)]
     }
 
     /// The supports of nodes along axes, with those of their images behind.
