@@ -18,26 +18,23 @@ impl Side<'_> {
     }
 
     fn check_start(&self) -> Result<(), Error> {
-        let refuse = |message: String| {
-            Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
-        };
         let (start, nodes) = (self.faces.start, self.faces.nodes.len());
-        match start {
-            [] => return refuse("start is empty, it needs one entry more than faces".into()),
-            [first, ..] if *first != 0 => {
-                return refuse(format!("{} is {first}, it must be 0", entry("start", [0])));
+        let descends = start.windows(2).position(|ends| ends[0] > ends[1]);
+        let message = match (start, descends) {
+            ([], _) => "start is empty, it needs one entry more than faces".into(),
+            ([first, ..], _) if *first != 0 => {
+                format!("{} is {first}, it must be 0", entry("start", [0]))
             }
-            _ => {}
-        }
-        if let Some(face) = start.windows(2).position(|ends| ends[0] > ends[1]) {
-            let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
-            return refuse(format!("{next} is less than {here}, start must not descend"));
-        }
-        if start[start.len() - 1] != nodes {
-            let last = start[start.len() - 1];
-            return refuse(format!("start ends with {last}, there are {nodes} nodes in the list"));
-        }
-        Ok(())
+            (_, Some(face)) => {
+                let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
+                format!("{next} is less than {here}, start must not descend")
+            }
+            ([.., last], None) if *last != nodes => {
+                format!("start ends with {last}, there are {nodes} nodes in the list")
+            }
+            _ => return Ok(()),
+        };
+        Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
     }
 
     fn check_nodes(&self, face: usize) -> Result<(), Error> {

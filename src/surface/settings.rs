@@ -165,20 +165,21 @@ impl SurfaceSettings {
         if let Some(distance) = self.search_distance.filter(|distance| !(*distance > 0.0)) {
             return refuse(&format!("search_distance is {distance}, it must be positive"));
         }
-        if self.axisymmetric && dim == 3 {
-            return refuse(
-                "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions",
-            );
-        }
-        if self.axisymmetric && self.keep_turns {
-            return refuse(
+        let of_rings = [
+            (dim == 3, "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions"),
+            (
+                self.keep_turns,
                 "keep_turns: meridians of a body of revolution do not turn, leave it out",
-            );
-        }
-        if self.axisymmetric && self.sector.is_some() {
-            return refuse(
+            ),
+            (
+                self.sector.is_some(),
                 "axisymmetric: a body of revolution has no sector, leave one of them out",
-            );
+            ),
+        ];
+        if let Some((_, what)) =
+            of_rings.iter().find(|(is_given, _)| self.axisymmetric && *is_given)
+        {
+            return refuse(what);
         }
         let symmetry = self.planes()?;
         let (within, shift) = (self.close_within, self.clearance);

@@ -116,14 +116,13 @@ fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
             return Err(named(&format!("is in {} dimensions, unlike", contact.dim)));
         }
         if contact.axisymmetric != first.contact.axisymmetric {
-            let [own, other] = if contact.axisymmetric {
-                ["a body of revolution", "in the plane"]
-            } else {
-                ["in the plane", "a body of revolution"]
-            };
+            let kinds = ["in the plane", "a body of revolution"];
+            let kind = |contact: &SurfacePairs| kinds[usize::from(contact.axisymmetric)];
             return Err(format!(
-                "zone '{name}' is {own}, and zone '{}' is {other}: give axisymmetric alike to the pairings of all zones",
-                first.name
+                "zone '{name}' is {}, and zone '{}' is {}: give axisymmetric alike to the pairings of all zones",
+                kind(contact),
+                first.name,
+                kind(first.contact)
             ));
         }
     }
