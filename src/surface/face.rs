@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::quadrature;
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
-use crate::linalg::vector3::{Vector3, unit};
+use crate::linalg::vector3::{Vector3, axis, unit};
 
 /// A mid node this close to the middle of its edge, relative to the edge, stands on it, and a face this close to
 /// linear is linear. What remains of the patch test is smaller by another factor of ten and more.
@@ -35,9 +35,10 @@ impl Face<'_> {
         self.x.iter().zip(values).map(|(x, value)| x * *value).sum()
     }
 
-    /// Derivatives of the position by the local coordinates; the second of a line is zero.
+    /// Derivatives of the position by the local coordinates; across a line that along the third axis.
     pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
-        let mut along = [Vector3::zeros(); 2];
+        let across = if self.kind.is_line() { axis(2) } else { Vector3::zeros() };
+        let mut along = [Vector3::zeros(), across];
         let nodes = &self.x[..self.kind.nodes()];
         for (x, slopes) in nodes.iter().zip(self.kind.derivatives(at)) {
             along[0] += x * slopes[0];
@@ -55,9 +56,6 @@ impl Face<'_> {
     /// line, and towards the eye that sees the corners of a face counterclockwise.
     pub(super) fn outward(&self, at: Local) -> Vector3 {
         let [first, second] = self.derivatives(at);
-        if self.kind.is_line() {
-            return Vector3::new(first.y, -first.x, 0.0);
-        }
         first.cross(&second)
     }
 

@@ -18,7 +18,7 @@ use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::{Vector3, axis, unit};
+use crate::linalg::vector3::{Vector3, unit};
 
 /// A step beside the size of a face this short is the last one: what remains is of the order of its square.
 const LAST: f64 = 1e-9;
@@ -166,11 +166,10 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
 impl Over<'_> {
     /// The point of the face, or of its patch, with its derivatives; across a line that along the third axis.
     fn at(&self, at: Local) -> (Vector3, [Vector3; 2]) {
-        if let Some(patch) = &self.patch {
-            return patch.at(at);
+        match &self.patch {
+            Some(patch) => patch.at(at),
+            None => (self.face.position(at), self.face.derivatives(at)),
         }
-        let [a, b] = self.face.derivatives(at);
-        (self.face.position(at), [a, if self.face.kind.is_line() { axis(2) } else { b }])
     }
 
     /// The true point near a point of the face, and the unit normal there, outward as that of the face.
