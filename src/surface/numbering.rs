@@ -46,7 +46,7 @@ impl Numbering {
     /// Tells which images of a side's nodes are the same, by its nodes on planes and on boundaries of a sector.
     ///
     /// # Errors
-    /// Two nodes at one place of a boundary; what stops the pairing.
+    /// Two nodes at one place of a boundary; as [`Self::place`]; what stops the pairing.
     pub(super) fn relate(&mut self, (side, on): (&Side<'_>, &OnPlanes)) -> Result<(), Error> {
         for Mirror { motion, nodes } in &on.mirrors {
             nodes.iter().for_each(|node| self.lay(*node, (*motion, *node)));
@@ -65,19 +65,8 @@ impl Numbering {
                 on_boundaries.extend([second, first]);
             }
         }
-        if side.is_rigid() { Ok(()) } else { self.name_firsts(&on_boundaries, &seconds) }
-    }
-
-    /// Names the first one of nodes that are images of each other, if there is one that is on no second boundary.
-    ///
-    /// # Errors
-    /// As [`Self::place`].
-    fn name_firsts(
-        &mut self,
-        on_boundaries: &BTreeSet<usize>,
-        seconds: &BTreeSet<usize>,
-    ) -> Result<(), Error> {
-        for &node in on_boundaries {
+        // The first one of nodes that are images of each other is one that is on no second boundary, if there is one.
+        for node in on_boundaries.into_iter().filter(|_| !side.is_rigid()) {
             let same = self.same((0, node))?.into_iter();
             let first = same.min_by_key(|(_, other)| (seconds.contains(other), *other));
             if let Some((place, first)) = first.filter(|(_, first)| *first != node) {

@@ -249,7 +249,11 @@ impl KeptSurfaces {
             let (kind, nodes) = (faces[0].kind, faces[0].nodes);
             let places = kind.places().iter().copied().zip(nodes.iter().copied().map(Some));
             let points = places.chain(wants_middles.then_some((kind.centre(), None)));
-            let mut asks = |place: Option<usize>| place.is_none_or(|at| asks_again(&mut asked[at]));
+            // Not along the normals of all faces at a node: those of slivers are all near each other.
+            let mut asks = |place: Option<usize>| {
+                place.iter().for_each(|at| asked[*at] += 1);
+                place.is_none_or(|at| asked[at] <= MANY_FACES)
+            };
             for (local, place) in points.filter(|(_, place)| asks(*place)) {
                 let Some((depth, face, master)) = through(at, (faces, local, place)) else {
                     continue;
@@ -267,12 +271,4 @@ impl KeptSurfaces {
         }
         Ok((found, passed))
     }
-}
-
-/// True if a node that so many of its faces have asked is asked along the normal of one more, which is counted: those of slivers
-/// are all near each other.
-fn asks_again(asked: &mut usize) -> bool {
-    let again = *asked < MANY_FACES;
-    *asked += usize::from(again);
-    again
 }

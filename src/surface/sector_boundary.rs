@@ -211,11 +211,14 @@ pub(super) fn check_boundaries(
 
 /// The error of a slave node whose image lies where no node is.
 fn no_match(sector: &Sector, node: usize, place: &str) -> Error {
+    let step = match sector.is_shifted() {
+        true => "shifted by a period".into(),
+        false => format!("turned by one of {} sectors", sector.count),
+    };
     let message = format!(
-        "sector: the image of slave node {}, {}, lies {place} of its nodes: give the number of sectors of the whole or the period, \
+        "sector: the image of slave node {}, {step}, lies {place} of its nodes: give the number of sectors of the whole or the period, \
          and nodes of the two boundaries that match to the digits of their coordinates",
-        index(node),
-        sector.step_in_words()
+        index(node)
     );
     Error::invalid(Argument::Settings, message)
 }

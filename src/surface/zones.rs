@@ -71,7 +71,13 @@ fn join(zones: &[ContactZone<'_>]) -> Result<Joined, String> {
         for pair in &contact.pairs {
             let pair = pair.renumbered(&contact.images, &numbers);
             let of_node = places.entry(pair.slave).or_default();
-            let same = of_node.iter().find(|&&at| parts[at].0[0].is_of_the_surface_of(&pair));
+            // Parts of one smooth surface, and both against bodies or against obstacles.
+            let same = of_node.iter().find(|&&at| {
+                let other = &parts[at].0[0];
+                let [own, others] = [&pair, other].map(|pair| Vector3::from(pair.normal));
+                let are_alike = pair.masters().is_empty() == other.masters().is_empty();
+                are_alike && own.dot(&others) > SAME_WAY
+            });
             if let Some(&at) = same {
                 parts[at].0.push(pair);
             } else {
@@ -253,13 +259,6 @@ fn folded_at_cuts(zones: &[ContactZone<'_>]) -> usize {
 }
 
 impl SurfacePair {
-    /// Returns `true` if the faces of both, around one node, are parts of one smooth surface, and both face bodies or
-    /// obstacles.
-    fn is_of_the_surface_of(&self, other: &SurfacePair) -> bool {
-        let [own, others] = [self, other].map(|pair| Vector3::from(pair.normal));
-        own.dot(&others) > SAME_WAY && self.masters().is_empty() == other.masters().is_empty()
-    }
-
     /// The sum of the rows of one node on parts of the faces around it, by their areas, with a first tangent towards a direction.
     /// The node is held along orthonormal directions.
     fn sum(
