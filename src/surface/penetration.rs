@@ -136,8 +136,10 @@ impl KeptSurfaces {
     fn held(&self, pairs: &SurfacePairs) -> Held {
         let [start, places] = &self.slave;
         let home = |node: &usize| pairs.images.home(*node).0;
-        let marks = |nodes: HashSet<usize>| -> Vec<bool> {
-            self.nodes.iter().map(|node| nodes.contains(&home(node))).collect()
+        let homes: Vec<usize> = self.nodes.iter().map(home).collect();
+        let marks = |mut nodes: Vec<usize>| -> Vec<bool> {
+            nodes.sort_unstable();
+            homes.iter().map(|node| nodes.binary_search(node).is_ok()).collect()
         };
         let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
         let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
