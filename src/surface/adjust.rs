@@ -105,7 +105,7 @@ impl SurfacePairs {
                 format!("there are {} coordinates, the pairs have {least}", coordinates.len());
             return Err(Error::invalid(Argument::Coordinates, message));
         }
-        let progress = &mut PairingProgress::new(monitor);
+        let progress = PairingProgress::new(monitor);
         let all = self.pairs.iter().map(|pair| (pair, self.apart(pair, coordinates)));
         let (pairs, apart): (Vec<&SurfacePair>, Vec<Vector3>) =
             all.filter(|(_, apart)| apart.norm() <= within).unzip();

@@ -1,8 +1,9 @@
-//! Which master faces may lie opposite a slave face, and how far away.
+//! Which master faces may lie opposite a slave face, and how far away; and those beyond the search distance.
 
 use super::face::Face;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
+use super::overlap::{Overlaps, SlaveFace};
+use super::pairs::SurfaceReport;
 use super::plane::Plane;
 use super::shape::BEYOND;
 use super::sweep::Sweep;
@@ -44,29 +45,7 @@ impl Reach {
     }
 }
 
-/// The faces of a side as a search needs them.
-pub(super) struct SearchFaces<'a> {
-    side: &'a Side<'a>,
-    pub(super) tree: Tree<'a>,
-    /// Unit normals in the middle of the faces.
-    pub(super) normals: Vec<Vector3>,
-}
-
-impl<'a> SearchFaces<'a> {
-    /// # Errors
-    /// What stops the pairing.
-    pub(super) fn new(
-        side: &'a Side<'a>,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<SearchFaces<'a>, Error> {
-        let mut normals = Vec::with_capacity(side.count());
-        for face in 0..side.count() {
-            progress.goes_on()?;
-            normals.push(side.face(face).middle_normal());
-        }
-        Ok(SearchFaces { side, tree: Tree::new(side), normals })
-    }
-
+impl Tree<'_> {
     /// True if the body of these faces ends between a point of its surface with an outward normal and a depth below it, at
     /// least so far below: a master face that overlaps by that depth is seen through the body, and touches another part of
     /// its surface, if any.
@@ -80,7 +59,7 @@ impl<'a> SearchFaces<'a> {
             return false;
         }
         let mut near = Vec::new();
-        self.tree.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
+        self.near(&Sweep::of_point(&point, normal, [depth, 0.0]), &mut near);
         let plane = Plane::new(self.side.dim, point, normal);
         near.into_iter().filter(|&at| self.normals[at].dot(&normal) < 0.0).any(|at| {
             let below = plane.meeting(&self.side.face(at));
@@ -92,19 +71,19 @@ impl<'a> SearchFaces<'a> {
 
 /// The master faces, to be asked for those near a slave face.
 pub(super) struct Candidates<'a> {
-    master: SearchFaces<'a>,
+    master: Tree<'a>,
     pub(super) reach: Reach,
     /// No face of either side is further away from another one.
-    pub(super) span: f64,
+    span: f64,
     found: Vec<usize>,
     /// Boxes looked at so far.
-    pub(super) searched: usize,
+    searched: usize,
     /// Faces near whose normals do not oppose.
-    pub(super) not_opposed: usize,
+    not_opposed: usize,
 }
 
 impl<'a> Candidates<'a> {
-    pub(super) fn new(master: SearchFaces<'a>, reach: Reach, span: f64) -> Candidates<'a> {
+    pub(super) fn new(master: Tree<'a>, reach: Reach, span: f64) -> Candidates<'a> {
         Candidates { master, reach, span, found: Vec::new(), searched: 0, not_opposed: 0 }
     }
 
@@ -129,10 +108,55 @@ impl<'a> Candidates<'a> {
     }
 
     fn near(&mut self, sweep: &Sweep<'_>, normal: Vector3) -> &[usize] {
-        self.searched += self.master.tree.near(sweep, &mut self.found);
+        self.searched += self.master.near(sweep, &mut self.found);
         let before = self.found.len();
         self.found.retain(|&face| self.master.normals[face].dot(&normal) < OPPOSED);
         self.not_opposed += before - self.found.len();
         &self.found
+    }
+
+    /// Tells the report how far was looked, and adds those of its uncovered faces, with the distance of the nearest master, negative where they overlap it:
+    /// where they are inside of a body, and no master face stands before it that looks their way, as that body's other side.
+    ///
+    /// # Errors
+    /// What stops the pairing.
+    pub(super) fn look_beyond(
+        mut self,
+        [slave, master]: [&Side<'_>; 2],
+        report: &mut SurfaceReport,
+    ) -> Result<(), Error> {
+        (report.boxes_searched, report.not_opposed) = (self.searched, self.not_opposed);
+        let reach = self.reach;
+        (report.search_distance, report.overlap_distance) = (reach.open, reach.overlap);
+        (self.reach.overlap, self.reach.open) =
+            (f64::max(reach.overlap, self.span), f64::max(reach.open, self.span));
+        let mut overlaps = Overlaps::default();
+        for &at in &report.uncovered_faces {
+            slave.progress.goes_on()?;
+            let face = slave.face(at);
+            let normal = face.middle_normal();
+            let in_plane = SlaveFace::new(&face, normal, 0);
+            let mut distances = |masters: &[usize]| {
+                let mut found = Vec::new();
+                for &other in masters {
+                    let part = in_plane.overlap(&master.face(other), |_| true, &mut overlaps);
+                    overlaps.points.clear();
+                    let part = part.unwrap_or_default();
+                    found.extend((part.share > 0.0).then_some(part.distance));
+                }
+                found
+            };
+            let opposite = distances(self.of_face(&face, normal));
+            let ahead = opposite.iter().copied().filter(|away| *away > reach.open);
+            let behind = opposite.iter().copied().filter(|away| *away < -reach.overlap);
+            let nearest = ahead.reduce(f64::min).or_else(|| {
+                let deep = behind.reduce(f64::max)?;
+                let looking_along = distances(self.of_face(&face, -normal));
+                let is_between = |away: &f64| (deep..0.0).contains(away);
+                (!looking_along.iter().any(is_between)).then_some(deep)
+            });
+            report.beyond.extend(nearest.map(|nearest| (at, nearest)));
+        }
+        Ok(())
     }
 }

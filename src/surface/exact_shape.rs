@@ -1,6 +1,7 @@
 //! Planes, spheres, cylinders, cones and tori: distance and normal of a point. They are rigid obstacles, and true
 //! shapes of meshed sides.
 
+use super::motion::Motion;
 use super::plane::tangents;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -64,111 +65,107 @@ pub enum Obstacle {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ExactShape {
     form: Form,
+    /// A point of it, or its middle; of a cone the apex.
+    point: Vector3,
+    /// The direction out of a plane, of an axis, or from the apex of a cone to the inside, at length one; of a sphere zero.
+    axis: Vector3,
+    /// The radius, and that of a torus' ring; of a cone cosine and sine of the angle beside its axis.
+    radii: [f64; 2],
     /// Negative if it is hollow.
     sign: f64,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
-    Plane {
-        point: Vector3,
-        outward: Vector3,
-    },
-    /// The axis is zero for a sphere.
-    Round {
-        point: Vector3,
-        axis: Vector3,
-        radius: f64,
-    },
-    /// The axis leads from the apex to the inside; cosine and sine are of the angle beside it.
-    Cone {
-        apex: Vector3,
-        axis: Vector3,
-        cos_sin: [f64; 2],
-    },
-    Torus {
-        centre: Vector3,
-        axis: Vector3,
-        radius: f64,
-        ring: f64,
-    },
+    Plane,
+    Sphere,
+    Cylinder,
+    Cone,
+    Torus,
 }
 
 impl Obstacle {
+    /// The form with a point, a direction, both radii, zero where it has none, and `true` if it is hollow.
+    fn numbers(&self) -> (Form, [[f64; 3]; 2], [f64; 2], bool) {
+        match *self {
+            Obstacle::Plane { point, outward } => (Form::Plane, [point, outward], [0.0; 2], false),
+            Obstacle::Sphere { centre, radius, hollow } => {
+                (Form::Sphere, [centre, [0.0; 3]], [radius, 0.0], hollow)
+            }
+            Obstacle::Cylinder { point, axis, radius, hollow } => {
+                (Form::Cylinder, [point, axis], [radius, 0.0], hollow)
+            }
+            Obstacle::Cone { point, to_apex, radius, hollow } => {
+                (Form::Cone, [point, to_apex], [radius, 0.0], hollow)
+            }
+            Obstacle::Torus { centre, axis, radius, ring, hollow } => {
+                (Form::Torus, [centre, axis], [radius, ring], hollow)
+            }
+        }
+    }
+
     /// The numbers that are lengths.
     pub(super) fn lengths(&self) -> Vec<f64> {
-        match *self {
-            Obstacle::Plane { point, .. } => point.to_vec(),
-            Obstacle::Sphere { centre: [x, y, z], radius, .. }
-            | Obstacle::Cylinder { point: [x, y, z], radius, .. } => vec![x, y, z, radius],
-            Obstacle::Cone { point, to_apex, radius, .. } => {
-                [&point[..], &to_apex, &[radius]].concat()
-            }
-            Obstacle::Torus { centre: [x, y, z], radius, ring, .. } => vec![x, y, z, radius, ring],
-        }
+        let (form, [point, along], radii, _) = self.numbers();
+        let to_apex = if form == Form::Cone { along } else { [0.0; 3] };
+        [&point[..], &to_apex, &radii].concat()
     }
 
     /// The obstacle with lengths multiplied by `scale`, or what is wrong with it.
     pub(super) fn check(&self, dim: usize, scale: f64) -> Result<ExactShape, String> {
-        let in_plane = matches!(self, Obstacle::Plane { .. } | Obstacle::Sphere { .. });
-        if dim == 2 && !in_plane {
-            let (name, seen) = match self {
-                Obstacle::Cone { .. } => ("cone", "a plane"),
-                Obstacle::Torus { .. } => ("torus", "two spheres"),
-                _ => ("cylinder", "a sphere"),
-            };
+        let (form, [point, along], radii @ [radius, ring], hollow) = self.numbers();
+        let of_space = match form {
+            Form::Plane | Form::Sphere => None,
+            Form::Cylinder => Some(("cylinder", "a sphere")),
+            Form::Cone => Some(("cone", "a plane")),
+            Form::Torus => Some(("torus", "two spheres")),
+        };
+        if let Some((name, seen)) = of_space.filter(|_| dim == 2) {
             return Err(format!("a {name} needs three dimensions: in the plane it is {seen}"));
         }
-        let point = |x: [f64; 3]| match x.iter().all(|x| x.is_finite()) {
-            true => Ok(scale * Vector3::from(x)),
-            false => Err("its point is not finite".to_string()),
+        // First: a host's axis may be as long as the ring.
+        if form != Form::Plane {
+            check_positive("radius", radius)?;
+        }
+        if form == Form::Torus {
+            check_positive("ring", ring)?;
+        }
+        let direction = match form {
+            Form::Plane => "outward direction",
+            Form::Cone => "direction to the apex",
+            _ => "axis",
         };
-        let (form, hollow) = match *self {
-            Obstacle::Plane { point: at, outward } => {
-                let outward = direction("outward direction", outward)?;
-                (Form::Plane { point: point(at)?, outward }, false)
-            }
-            Obstacle::Sphere { centre, radius, hollow } => {
-                let radius = scale * positive("radius", radius)?;
-                (Form::Round { point: point(centre)?, axis: Vector3::zeros(), radius }, hollow)
-            }
-            Obstacle::Cylinder { point: at, axis, radius, hollow } => {
-                let axis = direction("axis", axis)?;
-                let radius = scale * positive("radius", radius)?;
-                (Form::Round { point: point(at)?, axis, radius }, hollow)
-            }
-            Obstacle::Cone { point: at, to_apex, radius, hollow } => {
-                let axis = -direction("direction to the apex", to_apex)?;
-                let (height, radius) = (Vector3::from(to_apex).norm(), positive("radius", radius)?);
-                let cos_sin = [height, radius].map(|side| side / height.hypot(radius));
-                let apex = point(at)? + scale * Vector3::from(to_apex);
-                (Form::Cone { apex, axis, cos_sin }, hollow)
-            }
-            Obstacle::Torus { centre, axis, radius, ring, hollow } => {
-                // First: a host's axis may be as long as the ring.
-                let (radius, ring) = (positive("radius", radius)?, positive("ring", ring)?);
-                let axis = direction("axis", axis)?;
-                if radius >= ring {
-                    return Err(format!(
-                        "its radius is {radius}, it must be less than that of the ring, {ring}"
-                    ));
-                }
-                let (radius, ring) = (scale * radius, scale * ring);
-                (Form::Torus { centre: point(centre)?, axis, radius, ring }, hollow)
-            }
-        };
-        Ok(ExactShape { form, sign: if hollow { -1.0 } else { 1.0 } })
+        let (point, along) = (Vector3::from(point), Vector3::from(along));
+        let axis = unit(along).or((form == Form::Sphere).then_some(along));
+        let axis = axis.ok_or_else(|| format!("its {direction} is zero or not finite"))?;
+        if form == Form::Torus && radius >= ring {
+            return Err(format!(
+                "its radius is {radius}, it must be less than that of the ring, {ring}"
+            ));
+        }
+        if !point.iter().all(|x| x.is_finite()) {
+            return Err("its point is not finite".to_string());
+        }
+        let sign = if hollow { -1.0 } else { 1.0 };
+        let (point, radii) = (scale * point, radii.map(|radius| scale * radius));
+        let shape = ExactShape { form, point, axis, radii, sign };
+        let height = along.norm();
+        Ok(match form {
+            Form::Cone => ExactShape {
+                point: point + scale * along,
+                axis: -axis,
+                radii: [height, radius].map(|side| side / height.hypot(radius)),
+                ..shape
+            },
+            _ => shape,
+        })
     }
 }
 
-fn direction(name: &str, v: [f64; 3]) -> Result<Vector3, String> {
-    unit(v.into()).ok_or_else(|| format!("its {name} is zero or not finite"))
-}
-
-fn positive(name: &str, length: f64) -> Result<f64, String> {
+fn check_positive(name: &str, length: f64) -> Result<(), String> {
     // Written so that NaN is refused.
     match length > 0.0 && length.is_finite() {
-        true => Ok(length),
+        true => Ok(()),
         false => Err(format!("its {name} is {length}, it must be positive and finite")),
     }
 }
@@ -176,17 +173,19 @@ fn positive(name: &str, length: f64) -> Result<f64, String> {
 impl ExactShape {
     /// The size of its own lengths.
     pub(super) fn size(&self) -> f64 {
-        match self.form {
-            Form::Plane { point, .. } => point.lp_norm(1),
-            Form::Round { point, radius, .. } => point.lp_norm(1) + radius,
-            Form::Cone { apex, .. } => apex.lp_norm(1),
-            Form::Torus { centre, radius, ring, .. } => centre.lp_norm(1) + radius + ring,
-        }
+        let radii = if self.form == Form::Cone { 0.0 } else { self.radii.iter().sum() };
+        self.point.lp_norm(1) + radii
+    }
+
+    /// Its image by a motion in the host's unit.
+    pub(super) fn moved(&self, by: &Motion, scale: f64) -> ExactShape {
+        let point = scale * by.of(self.point / scale);
+        ExactShape { point, axis: by.turn * self.axis, ..*self }
     }
 
     /// `true` of a shape that has an inside and is not hollow.
     pub(super) fn is_solid(&self) -> bool {
-        self.sign > 0.0 && !matches!(self.form, Form::Plane { .. })
+        self.sign > 0.0 && self.form != Form::Plane
     }
 
     /// The gap of a point, and the normal from the point into the obstacle; `None` where all normals
@@ -199,31 +198,25 @@ impl ExactShape {
     /// The distance of a point from the surface, negative inside of a shape that is not hollow, and its gradient, `None` as
     /// above.
     pub(super) fn distance(&self, x: Vector3) -> (f64, Option<Vector3>) {
-        match self.form {
-            Form::Plane { point, outward } => (outward.dot(&(x - point)), Some(outward)),
-            Form::Round { point, axis, radius } => {
-                let from = x - point;
-                let across = from - from.dot(&axis) * axis;
-                (across.norm() - radius, unit(across))
-            }
-            Form::Cone { apex, axis, cos_sin: [cos, sin] } => {
-                let from = x - apex;
-                let along = from.dot(&axis);
-                let across = from - along * axis;
+        let from = x - self.point;
+        let along = from.dot(&self.axis);
+        let across = from - along * self.axis;
+        match (self.form, self.radii) {
+            (Form::Plane, _) => (along, Some(self.axis)),
+            (Form::Sphere | Form::Cylinder, [radius, _]) => (across.norm() - radius, unit(across)),
+            (Form::Cone, [cos, sin]) => {
                 // The foot would be beyond the apex.
                 if along * cos + across.norm() * sin <= 0.0 {
                     return (from.norm(), unit(from));
                 }
                 let away = unit(across);
-                let outward = cos * away.unwrap_or_default() - sin * axis;
+                let outward = cos * away.unwrap_or_default() - sin * self.axis;
                 (outward.dot(&from), away.map(|_| outward))
             }
-            Form::Torus { centre, axis, radius, ring } => {
-                let from = x - centre;
-                let across = from - from.dot(&axis) * axis;
+            (Form::Torus, [radius, ring]) => {
                 let away = unit(across);
                 // On the axis any point of the ring is as near.
-                let from_ring = from - ring * away.unwrap_or(tangents(3, axis)[0]);
+                let from_ring = from - ring * away.unwrap_or(tangents(3, self.axis)[0]);
                 (from_ring.norm() - radius, away.and(unit(from_ring)))
             }
         }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::quadrature;
 use super::shape::{FaceKind, Local, MOST_NODES, Values};
-use crate::linalg::vector3::{Vector3, unit};
+use crate::linalg::vector3::{Vector3, axis, unit};
 
 /// A mid node this close to the middle of its edge, relative to the edge, stands on it, and a face this close to
 /// linear is linear. What remains of the patch test is smaller by another factor of ten and more.
@@ -35,9 +35,10 @@ impl Face<'_> {
         self.x.iter().zip(values).map(|(x, value)| x * *value).sum()
     }
 
-    /// Derivatives of the position by the local coordinates; the second of a line is zero.
+    /// Derivatives of the position by the local coordinates; across a line that along the third axis.
     pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
-        let mut along = [Vector3::zeros(); 2];
+        let across = if self.kind.is_line() { axis(2) } else { Vector3::zeros() };
+        let mut along = [Vector3::zeros(), across];
         let nodes = &self.x[..self.kind.nodes()];
         for (x, slopes) in nodes.iter().zip(self.kind.derivatives(at)) {
             along[0] += x * slopes[0];
@@ -55,9 +56,6 @@ impl Face<'_> {
     /// line, and towards the eye that sees the corners of a face counterclockwise.
     pub(super) fn outward(&self, at: Local) -> Vector3 {
         let [first, second] = self.derivatives(at);
-        if self.kind.is_line() {
-            return Vector3::new(first.y, -first.x, 0.0);
-        }
         first.cross(&second)
     }
 
@@ -100,31 +98,27 @@ impl Face<'_> {
     /// How far the face reaches out of the hull of its nodes at most. It is the bilinear face of its corners, which does
     /// not, and the functions of the other nodes times how far these stand off it, whose sizes sum to less than 2.
     pub(super) fn bulge(&self) -> f64 {
-        let off_edge =
-            |(mid, [a, b]): (usize, [usize; 2])| 0.5 * (self.x[a] + self.x[b]) - self.x[mid];
-        let off_centre =
-            self.kind.central_node().map(|node| self.middle_of_corners() - self.x[node]);
-        let off = self.kind.mids().map(off_edge).chain(off_centre);
-        2.0 * off.map(|off| off.norm()).fold(0.0, f64::max)
+        2.0 * self.off_bilinear().map(|(off, _)| off).fold(0.0, f64::max)
     }
 
-    fn middle_of_corners(&self) -> Vector3 {
-        let corners = self.kind.corners();
-        self.x[..corners].iter().sum::<Vector3>() / corners as f64
-    }
-
-    /// Returns `true` if the mid nodes stand in the middle of straight edges.
-    pub(super) fn is_straight(&self) -> bool {
-        self.kind.mids().all(|(mid, [a, b])| {
-            let middle = 0.5 * (self.x[a] + self.x[b]);
-            (self.x[mid] - middle).norm() <= ON_EDGE * (self.x[a] - self.x[b]).norm()
-        })
-    }
-
-    /// Returns `true` if positions are bilinear in local coordinates: straight edges, and the centre in the middle.
+    /// Returns `true` if positions are bilinear in local coordinates: mid nodes in the middle of straight edges, and the centre in
+    /// the middle.
     pub(super) fn is_bilinear(&self) -> bool {
-        let centred =
-            |node: usize| (self.x[node] - self.middle_of_corners()).norm() <= ON_EDGE * self.size();
-        self.is_straight() && self.kind.central_node().is_none_or(centred)
+        self.off_bilinear().all(|(off, size)| off <= ON_EDGE * size)
+    }
+
+    /// How far mid nodes stand off the middles of straight edges, each with the length of its edge, and the centre off that of the
+    /// corners, with the size of the face.
+    fn off_bilinear(&self) -> impl Iterator<Item = (f64, f64)> {
+        let of_mid = |(mid, [a, b]): (usize, [usize; 2])| {
+            let [mid, a, b] = [mid, a, b].map(|node| self.x[node]);
+            ((0.5 * (a + b) - mid).norm(), (a - b).norm())
+        };
+        let of_centre = |centre: usize| {
+            let corners = self.kind.corners();
+            let middle = self.x[..corners].iter().sum::<Vector3>() / corners as f64;
+            ((middle - self.x[centre]).norm(), self.size())
+        };
+        self.kind.mids().map(of_mid).chain(self.kind.central_node().into_iter().map(of_centre))
     }
 }

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use super::digits::ON_PLANE;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::shape::FaceKind;
 use crate::error::{Error, entry, index};
 
@@ -19,26 +18,23 @@ impl Side<'_> {
     }
 
     fn check_start(&self) -> Result<(), Error> {
-        let refuse = |message: String| {
-            Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
-        };
         let (start, nodes) = (self.faces.start, self.faces.nodes.len());
-        match start {
-            [] => return refuse("start is empty, it needs one entry more than faces".into()),
-            [first, ..] if *first != 0 => {
-                return refuse(format!("{} is {first}, it must be 0", entry("start", [0])));
+        let descends = start.windows(2).position(|ends| ends[0] > ends[1]);
+        let message = match (start, descends) {
+            ([], _) => "start is empty, it needs one entry more than faces".into(),
+            ([first, ..], _) if *first != 0 => {
+                format!("{} is {first}, it must be 0", entry("start", [0]))
             }
-            _ => {}
-        }
-        if let Some(face) = start.windows(2).position(|ends| ends[0] > ends[1]) {
-            let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
-            return refuse(format!("{next} is less than {here}, start must not descend"));
-        }
-        if start[start.len() - 1] != nodes {
-            let last = start[start.len() - 1];
-            return refuse(format!("start ends with {last}, there are {nodes} nodes in the list"));
-        }
-        Ok(())
+            (_, Some(face)) => {
+                let (here, next) = (entry("start", [face]), entry("start", [face + 1]));
+                format!("{next} is less than {here}, start must not descend")
+            }
+            ([.., last], None) if *last != nodes => {
+                format!("start ends with {last}, there are {nodes} nodes in the list")
+            }
+            _ => return Ok(()),
+        };
+        Err(Error::invalid(self.argument, format!("{}: {message}", self.name)))
     }
 
     fn check_nodes(&self, face: usize) -> Result<(), Error> {
@@ -112,18 +108,13 @@ impl Side<'_> {
 
     /// Refuses neighbours that run along their common edge in the same direction, if none runs along it in the other: where
     /// bodies meet in an edge, two do in each.
-    pub(super) fn check_orientation(
-        &self,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<(), Error> {
+    pub(super) fn check_orientation(&self) -> Result<(), Error> {
         let mut seen: HashMap<(usize, usize), usize> =
             HashMap::with_capacity(self.faces.nodes.len());
         let mut again = Vec::new();
         for face in 0..self.count() {
-            progress.goes_on()?;
-            let corners = self.corners(face);
-            for (i, &a) in corners.iter().enumerate() {
-                let b = corners[(i + 1) % corners.len()];
+            self.progress.goes_on()?;
+            for (i, [a, b]) in self.edges(face).enumerate() {
                 // On a line the node and its end: 0 if it begins there, 1 if it ends there.
                 let [key, opposite] =
                     if self.dim == 2 { [(a, i), (a, 1 - i)] } else { [(a, b), (b, a)] };

@@ -10,7 +10,6 @@ use super::digits::left_open;
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, Weight};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::shape::padded;
@@ -28,7 +27,7 @@ const A_PART: f64 = 4.0;
 pub(super) fn stand_off(
     [slave, master]: [&Side<'_>; 2],
     settings: &SurfaceSettings,
-    (found, progress): (&mut SurfacePairs, &mut PairingProgress<'_, '_>),
+    found: &mut SurfacePairs,
 ) -> Result<(), Error> {
     // Those of sides that are tied fit.
     if settings.keep_turns {
@@ -37,17 +36,15 @@ pub(super) fn stand_off(
     let [own, opposite] = settings.shapes.map(|shape| shape == TrueShape::Facets);
     // Of nodes against surfaces slave nodes are on the true surface.
     let own = own && settings.pairing == Pairing::DualMortar;
-    let of_side = |side, is_of_facets, progress: &mut PairingProgress<'_, '_>| match is_of_facets {
-        true => at_all_nodes(side, progress),
-        false => Ok(Vec::new()),
-    };
-    let sides = [of_side(slave, own, progress)?, of_side(master, opposite, progress)?];
+    let of_side =
+        |side, is_of_facets| if is_of_facets { at_all_nodes(side) } else { Ok(Vec::new()) };
+    let sides = [of_side(slave, own)?, of_side(master, opposite)?];
     let mean = |away: &[f64], nodes: &[Weight]| -> f64 {
         nodes.iter().map(|(node, part)| part * away.get(*node).unwrap_or(&0.0)).sum()
     };
     found.report.stand_off.reserve_exact(found.pairs.len());
     for pair in &found.pairs {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let both = [mean(&sides[0], pair.slaves()), mean(&sides[1], pair.masters())];
         found.report.stand_off.push((pair.slave, both));
     }
@@ -55,16 +52,12 @@ pub(super) fn stand_off(
 }
 
 /// The mean at each node of what the faces around it stand off; zero at other nodes.
-fn at_all_nodes(
-    side: &Side<'_>,
-    progress: &mut PairingProgress<'_, '_>,
-) -> Result<Vec<f64>, Error> {
+fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
     let count = side.coordinates.len() / side.dim;
     let mut normals = vec![Vector3::zeros(); count];
     let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
-    for at in 0..side.count() {
-        progress.goes_on()?;
-        let face = side.face(at);
+    for face in side.each_face() {
+        let (_, face) = face?;
         let own = at_corners(&face);
         for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
             normals[node] += normal;
@@ -72,10 +65,9 @@ fn at_all_nodes(
         of_faces.push(own);
     }
     let mut sums = vec![[0.0; 2]; count];
-    for (at, own) in of_faces.iter().enumerate() {
-        progress.goes_on()?;
-        let face = side.face(at);
-        let away = of_face((&face, own), &normals);
+    for face in side.each_face() {
+        let (at, face) = face?;
+        let away = of_face((&face, &of_faces[at]), &normals);
         for &node in face.nodes {
             let [sum, faces] = &mut sums[node];
             *sum += away;
@@ -125,11 +117,10 @@ fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 
 pub(super) fn too_large(
     found: &SurfacePairs,
     (slave, settings): (&Side<'_>, &SurfaceSettings),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Option<(usize, f64)>, Error> {
     let (mut count, mut most, mut of_them, mut of_all) = (0, 0.0, 0.0, 0.0);
     for (pair, &(_, [own, opposite])) in found.pairs.iter().zip(&found.report.stand_off) {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let lost = own + opposite;
         let weight = pair.area * (own.abs() + opposite.abs());
         // Nodes that were moved onto the other side have left nearly nothing between them.

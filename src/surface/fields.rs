@@ -14,7 +14,7 @@ use super::pairs::{SurfacePair, SurfacePairs, Weight};
 use crate::error::{Argument, Error};
 use crate::linalg::tolerances::ROUNDING_OF_SUM;
 use crate::linalg::vector3::{Matrix3, Vector3, vector, without};
-use crate::problem::{check_finite, check_gaps};
+use crate::problem::{check_count, check_finite, check_gaps};
 
 /// The solution for pairs, in their frames: normal and tangents of each.
 #[derive(Clone, Copy, Debug)]
@@ -175,12 +175,16 @@ impl SurfacePairs {
     ) -> Result<Resultant, Error> {
         self.check(results)?;
         let dim = self.dim;
-        check_length(Argument::Coordinates, "point", point.len(), dim)?;
+        check_count(("point", Argument::Coordinates), point.len(), dim)?;
         check_finite(("point", Argument::Coordinates), point)?;
         let about = vector(point);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         let mut resultant = Resultant::default();
-        let on_second = self.motions_to_second();
+        // Faces of the model are around all images of a node on second boundaries: each carries an equal part of the pair.
+        let mut on_second: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
+        for (first, motion) in self.images.on_second().values() {
+            on_second.entry(*first).or_default().push(*motion);
+        }
         for (j, pair) in pairs.clone().zip(&self.pairs[pairs]) {
             let of_pair = &results.force[dim * j..dim * (j + 1)];
             let acting = pair.to_host(of_pair[0], &of_pair[1..]);
@@ -210,16 +214,6 @@ impl SurfacePairs {
         Ok(Resultant { force: force.into(), moment: moment.into(), ..resultant })
     }
 
-    /// The motions to the images on second boundaries of each node that has any. Faces of the model are around all of
-    /// these nodes, so each carries an equal part of the pair.
-    fn motions_to_second(&self) -> BTreeMap<usize, Vec<Motion>> {
-        let mut motions: BTreeMap<usize, Vec<Motion>> = BTreeMap::new();
-        for (first, motion) in self.images.on_second().values() {
-            motions.entry(*first).or_default().push(*motion);
-        }
-        motions
-    }
-
     /// Motion of a pair along its tangents since the reference slip.
     fn slip(&self, pair: usize, results: &PairResults<'_>) -> [f64; 2] {
         let dim = self.dim;
@@ -246,22 +240,15 @@ impl SurfacePairs {
     fn check(&self, results: &PairResults<'_>) -> Result<(), Error> {
         let pairs = self.pairs.len();
         let PairResults { gap, reference_slip, d, force } = results;
-        check_length(Argument::Start, "d", d.len(), self.dim * pairs)?;
-        check_length(Argument::Load, "F", force.len(), self.dim * pairs)?;
-        check_length(Argument::Gap, "gap", gap.map_or(pairs, <[f64]>::len), pairs)?;
+        check_count(("d", Argument::Start), d.len(), self.dim * pairs)?;
+        check_count(("F", Argument::Load), force.len(), self.dim * pairs)?;
+        check_count(("gap", Argument::Gap), gap.map_or(pairs, <[f64]>::len), pairs)?;
         let slips = (self.dim - 1) * pairs;
         let given = reference_slip.map_or(slips, <[f64]>::len);
-        check_length(Argument::ReferenceSlip, "slip0", given, slips)?;
+        check_count(("slip0", Argument::ReferenceSlip), given, slips)?;
         check_finite(("d", Argument::Start), d)?;
         check_finite(("F", Argument::Load), force)?;
         check_finite(("slip0", Argument::ReferenceSlip), reference_slip.unwrap_or_default())?;
         check_gaps(gap.unwrap_or_default())
     }
-}
-
-fn check_length(argument: Argument, name: &str, given: usize, needed: usize) -> Result<(), Error> {
-    if given == needed {
-        return Ok(());
-    }
-    Err(Error::invalid(argument, format!("{name} has {given} entries, it needs {needed}")))
 }

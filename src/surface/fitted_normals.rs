@@ -14,7 +14,6 @@ use super::face::Face;
 use super::fitted_quadric::{Form, fit};
 use super::mesh::Side;
 use super::normals::direction;
-use super::pairing_progress::PairingProgress;
 use super::shape::{MANY_FACES, MOST_NODES, padded};
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, axis, unit};
@@ -29,11 +28,8 @@ pub(super) type Fitted = Vec<[Vector3; MOST_NODES]>;
 
 /// # Errors
 /// What stops the pairing.
-pub(super) fn fitted(
-    side: &Side<'_>,
-    progress: &mut PairingProgress<'_, '_>,
-) -> Result<Fitted, Error> {
-    if side.dim == 2 { on_lines(side, progress) } else { on_faces(side, progress) }
+pub(super) fn fitted(side: &Side<'_>) -> Result<Fitted, Error> {
+    if side.dim == 2 { on_lines(side) } else { on_faces(side) }
 }
 
 /// The nodes of a line in the order in which it runs through them.
@@ -44,11 +40,10 @@ fn along(face: &Face<'_>) -> Vec<usize> {
 /// The neighbours of a node along its line: the chord that ends there, and the one that begins there.
 type Chords = [Option<Vector3>; 2];
 
-fn on_lines(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Fitted, Error> {
+fn on_lines(side: &Side<'_>) -> Result<Fitted, Error> {
     let mut chords: HashMap<usize, Chords> = HashMap::new();
-    for at in 0..side.count() {
-        progress.goes_on()?;
-        let face = side.face(at);
+    for face in side.each_face() {
+        let (_, face) = face?;
         for ends in along(&face).windows(2) {
             let chord = face.x[ends[1]] - face.x[ends[0]];
             chords.entry(face.nodes[ends[0]]).or_default()[1] = Some(chord);
@@ -93,11 +88,10 @@ struct Fans {
 }
 
 impl Fans {
-    fn new(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Self, Error> {
+    fn new(side: &Side<'_>) -> Result<Self, Error> {
         let (mut before, mut edges) = (vec![0], Vec::new());
-        for at in 0..side.count() {
-            progress.goes_on()?;
-            let face = side.face(at);
+        for face in side.each_face() {
+            let (at, face) = face?;
             before.push(before[at] + face.nodes.len());
             for mut ends in face.kind.edges() {
                 ends.sort_unstable_by_key(|&i| face.nodes[i]);
@@ -158,8 +152,8 @@ impl Fans {
     }
 }
 
-fn on_faces(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<Fitted, Error> {
-    let fans = Fans::new(side, progress)?;
+fn on_faces(side: &Side<'_>) -> Result<Fitted, Error> {
+    let fans = Fans::new(side)?;
     let node = |fan: usize| {
         let at = fans.faces[fan][0];
         let place = fans.of_face(at).iter().position(|&other| other == fan);
@@ -168,7 +162,7 @@ fn on_faces(side: &Side<'_>, progress: &mut PairingProgress<'_, '_>) -> Result<F
     let middles: Vec<Vector3> = (0..side.count()).map(|at| side.face(at).middle_normal()).collect();
     let mut normals = Vec::with_capacity(fans.faces.len());
     for (fan, faces) in fans.faces.iter().enumerate() {
-        progress.goes_on()?;
+        side.progress.goes_on()?;
         let ring = fans.around(&BTreeSet::from([fan]));
         let is_linear = side.face(faces[0]).kind.mids().next().is_none();
         // Three rows of nodes, of which the largest faces at an edge have five each, do not determine cubes.

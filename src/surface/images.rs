@@ -1,7 +1,7 @@
 //! The images of nodes in the parts of the body beyond the model: in the neighbours of a sector, and beyond planes of
 //! symmetry. An image is a node of the model, moved: `u = Q u'`.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 use super::motion::Motion;
@@ -116,11 +116,6 @@ impl Images {
     /// `true` of a node that the model has, and not its neighbour on the second boundary.
     pub(super) fn is_own(&self, node: usize) -> bool {
         !self.has(node) && !self.second.contains_key(&node)
-    }
-
-    /// The nodes on first boundaries.
-    pub(super) fn on_first(&self) -> BTreeSet<usize> {
-        self.second.values().map(|(first, _)| *first).collect()
     }
 
     /// The nodes on second boundaries.

@@ -2,6 +2,7 @@
 
 use super::exact_shape::Obstacle;
 use super::mesh::Side;
+use super::pairing_progress::PairingProgress;
 use super::surfaces::{Faces, Master, Surfaces};
 use crate::error::{Argument, Error};
 
@@ -62,12 +63,12 @@ impl KeptSurfaces {
     /// Sides of these faces, before the motion and `moved`.
     pub(super) fn before_and_after<'s>(
         &'s self,
-        name: &'static str,
+        (name, progress): (&'static str, &'s PairingProgress<'s>),
         moved: &'s [f64],
         [start, nodes]: &'s [Vec<usize>; 2],
     ) -> Result<[Side<'s>; 2], Error> {
         let faces = Faces { start, nodes };
-        let side = |x| Side::new(name, Argument::Coordinates, (self.dim, x), faces);
+        let side = |x| Side::new(name, Argument::Coordinates, (self.dim, x), faces, progress);
         Ok([side(&self.coordinates)?, side(moved)?])
     }
 }

@@ -12,7 +12,7 @@ use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{Vector3, vector};
 
 /// One of the two sides, checked.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Side<'a> {
     pub(super) name: &'static str,
     pub(super) argument: Argument,
@@ -26,6 +26,8 @@ pub(super) struct Side<'a> {
     pub(super) scale: f64,
     /// How far apart, in the host's unit, two nodes may be that are one in a sector; without one zero.
     pub(super) left_open: f64,
+    /// To be asked often if the pairing goes on.
+    pub(super) progress: &'a PairingProgress<'a>,
 }
 
 impl<'a> Side<'a> {
@@ -39,6 +41,11 @@ impl<'a> Side<'a> {
         let nodes = self.nodes(face);
         let x = padded(nodes.iter().map(|&node| self.position(node)));
         Face { kind: self.kind(nodes), nodes, x, is_ring: self.is_axisymmetric }
+    }
+
+    /// The faces with their places; before each it is asked if the pairing goes on.
+    pub(super) fn each_face(&self) -> impl Iterator<Item = Result<(usize, Face<'a>), Error>> {
+        (0..self.count()).map(|at| self.progress.goes_on().map(|()| (at, self.face(at))))
     }
 
     /// Place of a node, in the unit of the pairing.
@@ -62,17 +69,16 @@ impl<'a> Side<'a> {
         mut self,
         scale: f64,
         settings: &SurfaceSettings,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Side<'a>, Error> {
         (self.scale, self.is_axisymmetric) = (scale, settings.axisymmetric);
         if settings.sector.is_some() {
             self.left_open = left_open(self.dim, self.coordinates);
         }
         for face in 0..self.count() {
-            progress.goes_on()?;
+            self.progress.goes_on()?;
             self.check_shape(face)?;
         }
-        self.check_orientation(progress)?;
+        self.check_orientation()?;
         Ok(self)
     }
 
@@ -120,6 +126,13 @@ impl<'a> Side<'a> {
     pub(super) fn corners(&self, face: usize) -> &'a [usize] {
         let nodes = self.nodes(face);
         &nodes[..self.kind(nodes).corners()]
+    }
+
+    /// The edges of a face by their nodes, in order around it; of a line it itself, to and fro.
+    pub(super) fn edges(&self, face: usize) -> impl Iterator<Item = [usize; 2]> {
+        let corners = self.corners(face);
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| [*a, *b])
     }
 
     /// The kind of a face with these nodes.
@@ -171,6 +184,7 @@ impl<'a> Side<'a> {
         argument: Argument,
         (dim, coordinates): (usize, &'a [f64]),
         faces: Faces<'a>,
+        progress: &'a PairingProgress<'a>,
     ) -> Result<Side<'a>, Error> {
         let side = Side {
             name,
@@ -182,6 +196,7 @@ impl<'a> Side<'a> {
             is_axisymmetric: false,
             scale: 1.0,
             left_open: 0.0,
+            progress,
         };
         if !coordinates.len().is_multiple_of(dim) {
             let message =

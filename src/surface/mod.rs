@@ -21,8 +21,6 @@
 //! ```
 
 mod adjust;
-mod assembly;
-mod beyond;
 mod bilinear;
 mod candidates;
 mod clip;
@@ -37,7 +35,6 @@ mod facets;
 mod fields;
 mod fitted_normals;
 mod fitted_quadric;
-mod frames;
 mod images;
 mod kept_surfaces;
 mod mesh;
@@ -67,10 +64,8 @@ mod summary;
 mod surfaces;
 mod sweep;
 mod symmetry;
-mod symmetry_plane;
 mod tree;
 mod true_shape;
-mod turns;
 mod unit;
 mod with_images;
 mod zones;
@@ -84,7 +79,6 @@ pub use pair_surfaces::pair_surfaces;
 pub use pairs::{Fold, SurfacePair, SurfacePairs, SurfaceReport, Weight};
 pub use penetration::Penetration;
 pub use sector::Sector;
-pub use settings::{Normals, Pairing, Rims, SurfaceSettings, TrueShape};
+pub use settings::{Normals, Pairing, Rims, SurfaceSettings, SymmetryPlane, TrueShape};
 pub use surfaces::{Faces, Master, Surfaces};
-pub use symmetry_plane::SymmetryPlane;
 pub use zones::{ContactZone, Joined, join_zones};

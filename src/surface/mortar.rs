@@ -9,21 +9,20 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{pair_of_row, pairs_of_rows};
-use super::candidates::{Candidates, SAME_WAY, SearchFaces};
+use super::candidates::{Candidates, SAME_WAY};
 use super::control::Edges;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
 use super::overlap::{Meeting, Overlaps, SlaveFace};
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
-use super::row::{Row, add_face};
+use super::row::{Row, add_face, pair_of_row, pairs_of_rows};
 use super::self_overlap::UPON;
 use super::settings::{Normals, SurfaceSettings};
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::true_shape::TrueSides;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -35,7 +34,7 @@ type Cover = (Option<Covered>, bool);
 /// The search for what lies over slave faces, with the memory that it uses from face to face.
 struct Search<'a> {
     sides: [&'a Side<'a>; 2],
-    own: SearchFaces<'a>,
+    own: Tree<'a>,
     candidates: Candidates<'a>,
     shapes: Option<TrueSides<'a>>,
     overlaps: Overlaps,
@@ -50,19 +49,18 @@ struct Search<'a> {
 pub(super) fn pairs<'a>(
     sides: [&'a Side<'a>; 2],
     planes: &'a OnPlanes,
-    (own, candidates): (SearchFaces<'a>, Candidates<'a>),
+    (own, candidates): (Tree<'a>, Candidates<'a>),
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, _] = sides;
     let mut report = SurfaceReport::default();
-    let shapes = TrueSides::new(sides, settings, progress)?;
+    let shapes = TrueSides::new(sides, settings)?;
     let (overlaps, polynomials) = (Overlaps::default(), Polynomials::default());
     let mut search = Search { sides, own, candidates, shapes, overlaps, polynomials };
     let mut faces = Vec::with_capacity(slave.count());
     for at in 0..slave.count() {
-        progress.step()?;
-        let cover = search.cover(at, &slave.face(at), progress)?;
+        slave.progress.step()?;
+        let cover = search.cover(at, &slave.face(at))?;
         match &cover {
             (None, _) => report.uncovered_faces.push(at),
             (Some(covered), wholly) => {
@@ -73,10 +71,10 @@ pub(super) fn pairs<'a>(
         faces.push(cover);
     }
     let Search { candidates, shapes, .. } = search;
-    candidates.look_beyond(sides, &mut report, progress)?;
-    let mut rows = rows(slave, faces, (&mut report, progress))?;
+    candidates.look_beyond(sides, &mut report)?;
+    let mut rows = rows(slave, faces, &mut report)?;
     if settings.normals == Normals::Averaged {
-        average(&mut rows, (slave, planes, &report.uncovered_faces), progress)?;
+        average(&mut rows, (slave, planes, &report.uncovered_faces))?;
     }
     let pair = |node, row: Row| {
         let gap = row.gap / row.area;
@@ -90,15 +88,14 @@ pub(super) fn pairs<'a>(
         Ok(pair)
     };
     let on = (slave, &report.uncovered_faces[..], planes);
-    report.folded = rims::fold(settings, &mut rows, on, progress)?;
-    pairs_of_rows(slave, rows, report, pair, progress)
+    report.folded = rims::fold(settings, &mut rows, on)?;
+    pairs_of_rows(slave, rows, report, pair)
 }
 
 /// Gives rows the mean normals at their nodes, without faces around sharp edges that lie over nothing: these have none of the contact.
 fn average(
     rows: &mut BTreeMap<usize, Row>,
     (slave, planes, uncovered): (&Side<'_>, &OnPlanes, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let looks_elsewhere =
         |row: &Row, normal: &Vector3| row.normal.dot(normal) <= SAME_WAY * row.normal.norm();
@@ -106,9 +103,9 @@ fn average(
         uncovered.binary_search(&at).is_err()
             || !rows.get(&node).is_some_and(|row| looks_elsewhere(row, normal))
     };
-    let averaged = slave.node_normals(planes, counts, progress)?;
+    let averaged = slave.node_normals(planes, counts)?;
     for (node, row) in rows {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let mean = averaged[node];
         if mean != Vector3::zeros() {
             row.normal = row.area * mean;
@@ -119,24 +116,19 @@ fn average(
 
 impl<'a> Search<'a> {
     /// The part of the master that a slave face lies over.
-    fn cover(
-        &mut self,
-        at: usize,
-        face: &Face<'_>,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<Cover, Error> {
+    fn cover(&mut self, at: usize, face: &Face<'_>) -> Result<Cover, Error> {
         let normal = face.middle_normal();
-        let mut parts = self.opposite(at, (face, normal), progress)?;
+        let mut parts = self.opposite(at, (face, normal))?;
         let Search { sides: [slave, master], own, candidates, shapes, overlaps, polynomials } =
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
-        keep(&mut parts, points, |opposite, points| {
-            let from = face.position(points[0].slave);
+        parts.retain(|opposite| {
+            let from = face.position(points[opposite.points.start].slave);
             !own.end_above((from, normal), -opposite.part.distance, reach.of_shells())
         });
         let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
         let most = distances.fold(f64::INFINITY, f64::min) + reach.layer;
-        keep(&mut parts, points, |opposite, _| opposite.part.distance.abs() <= most);
+        parts.retain(|opposite| opposite.part.distance.abs() <= most);
         let share = |parts: &[Opposite<'_>]| parts.iter().map(|part| part.part.share).sum::<f64>();
         if share(&parts) > 1.0 + SAME_COVER {
             let over: Vec<String> =
@@ -153,9 +145,9 @@ impl<'a> Search<'a> {
             a.part.joins(&b.part, step) && candidates.are_of_one_surface([a.at, b.at])
         };
         if parts.windows(2).any(|two| !joins(&two[0], &two[1])) {
-            let mut kept = one_surface(&parts, joins).into_iter();
-            keep(&mut parts, points, |_, _| kept.next() == Some(true));
+            keep_one_surface(&mut parts, joins);
         }
+        keep_points(&mut parts, points);
         let is_off_axis = !face.is_at_axis();
         if parts.is_empty() {
             return Ok((None, is_off_axis));
@@ -176,16 +168,15 @@ impl<'a> Search<'a> {
         &mut self,
         at: usize,
         (face, normal): (&Face<'_>, Vector3),
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Vec<Opposite<'a>>, Error> {
         let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
         let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
-        let in_plane = SlaveFace::new(face, normal).for_gaps(of_gaps);
+        let in_plane = SlaveFace::new(face, normal, of_gaps);
         overlaps.points.clear();
         let reach = candidates.reach;
         let mut parts = Vec::new();
         for &opposite in candidates.of_face(face, normal) {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let other = master.face(opposite);
             let before = overlaps.points.len();
             let wanted = |distance| reach.holds(distance);
@@ -208,58 +199,45 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Keeps some of the parts, with their points.
-fn keep(
-    parts: &mut Vec<Opposite<'_>>,
-    points: &mut Vec<Meeting>,
-    mut keeps: impl FnMut(&Opposite<'_>, &[Meeting]) -> bool,
-) {
+/// Leaves the points of the parts alone.
+fn keep_points(parts: &mut [Opposite<'_>], points: &mut Vec<Meeting>) {
     let mut end = 0;
-    parts.retain_mut(|opposite| {
+    for opposite in parts {
         let own = opposite.points.clone();
-        let is_kept = keeps(opposite, &points[own.clone()]);
-        if is_kept {
-            opposite.points = end..end + own.len();
-            if own.start > end {
-                points.copy_within(own, end);
-            }
-            end = opposite.points.end;
-        }
-        is_kept
-    });
+        opposite.points = end..end + own.len();
+        points.copy_within(own, end);
+        end = opposite.points.end;
+    }
     points.truncate(end);
 }
 
-/// The parts that are on one surface with the nearest one. Distances from a face to a surface take all values between
+/// Leaves the parts that are on one surface with the nearest one. Distances from a face to a surface take all values between
 /// theirs; across a step they jump. Weights are negative on a part of a face, so that with both sides of a step, or of an edge
 /// of the body, gaps would be less than all distances.
-fn one_surface(
-    parts: &[Opposite<'_>],
+fn keep_one_surface(
+    parts: &mut Vec<Opposite<'_>>,
     joins: impl Fn(&Opposite<'_>, &Opposite<'_>) -> bool,
-) -> Vec<bool> {
+) {
     let distance = |at: &usize| parts[*at].part.distance.abs();
-    let mut kept = vec![false; parts.len()];
-    let first = (0..parts.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let mut reached: Vec<usize> = first.into_iter().collect();
-    while let Some(at) = reached.pop() {
-        kept[at] = true;
-        let is_new = |other: &usize| !kept[*other] && joins(&parts[at], &parts[*other]);
-        let more: Vec<usize> = (0..parts.len()).filter(is_new).collect();
-        more.iter().for_each(|&other| kept[other] = true);
-        reached.extend(more);
+    let mut rest: Vec<usize> = (0..parts.len()).collect();
+    let nearest = rest.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut kept: Vec<usize> = nearest.into_iter().collect();
+    while let Some(at) = kept.pop() {
+        kept.extend(rest.extract_if(.., |other| joins(&parts[at], &parts[*other])));
     }
-    kept
+    let mut place = 0..;
+    parts.retain(|_| place.next().is_some_and(|at| rest.binary_search(&at).is_err()));
 }
 
 /// The rows of all nodes with cover, by node. The areas of all faces are added to those of the report.
 fn rows(
     slave: &Side<'_>,
     faces: Vec<Cover>,
-    (report, progress): (&mut SurfaceReport, &mut PairingProgress<'_, '_>),
+    report: &mut SurfaceReport,
 ) -> Result<BTreeMap<usize, Row>, Error> {
     let mut edges = Edges::default();
     for (at, (_, wholly)) in faces.iter().enumerate() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let face = slave.face(at);
         edges.add(face.kind, face.nodes, *wholly);
     }
@@ -267,7 +245,7 @@ fn rows(
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     // The memory of a face is given back once its rows have it.
     for (at, (covered, wholly)) in faces.into_iter().enumerate() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         if let Some(covered) = covered {
             let face = slave.face(at);
             let basis = edges.basis(face.kind, face.nodes, wholly);
@@ -278,7 +256,7 @@ fn rows(
         }
     }
     for &at in &report.uncovered_faces {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let face = slave.face(at);
         let basis = edges.basis(face.kind, face.nodes, !face.is_at_axis());
         let (integrals, normal) = (face.integrals(), face.middle_normal());

@@ -43,10 +43,14 @@ impl Motion {
         Motion { turn: self.turn * first.turn, shift: self.of(first.shift) }
     }
 
+    /// How far apart it and another one move points within so much of a middle, at most but for a factor.
+    pub(super) fn apart(&self, other: &Motion, (middle, size): (Vector3, f64)) -> f64 {
+        (self.of(middle) - other.of(middle)).amax() + size * (self.turn - other.turn).amax()
+    }
+
     /// `true` if it is another one but for rounding, on bodies within so much of the origin.
     pub(super) fn is(&self, other: &Motion, size: f64) -> bool {
-        let turned = (self.turn - other.turn).amax();
-        size * turned + (self.shift - other.shift).amax() <= ROUNDING_OF_SUM * size
+        self.apart(other, (Vector3::zeros(), size)) <= ROUNDING_OF_SUM * size
     }
 
     /// `true` of one that turns faces over.

@@ -9,18 +9,17 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
-use super::candidates::{Candidates, SearchFaces};
+use super::candidates::Candidates;
 use super::face::Face;
 use super::mesh::Side;
 use super::normals::{cancel, foot};
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePairs, SurfaceReport, Weight};
 use super::plane::Plane;
-use super::row::Row;
+use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::settings::Normals;
-use super::shape::{BEYOND, Local};
+use super::shape::BEYOND;
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use crate::error::Error;
 use crate::linalg::vector3::{Vector3, unit};
 
@@ -31,14 +30,6 @@ struct MasterPoint {
     weights: Vec<Weight>,
     /// The unit normal of the pair, outward from the slave's body.
     normal: Vector3,
-}
-
-impl MasterPoint {
-    /// The point of a face at local coordinates.
-    fn new(face: &Face<'_>, at: Local, distance: f64, normal: Vector3) -> MasterPoint {
-        let weights = face.nodes.iter().copied().zip(face.kind.values(at)).collect();
-        MasterPoint { distance, weights, normal }
-    }
 }
 
 /// The meetings that are nearest, up to a rounding, the very nearest first. The order of faces chooses none of their normals: all have
@@ -67,20 +58,22 @@ fn meets(
     master: &Side<'_>,
     (x, averaged): (Vector3, Vector3),
     normals: Normals,
-    (own, candidates): (&mut SearchFaces<'_>, &mut Candidates<'_>),
+    (own, candidates): (&mut Tree<'_>, &mut Candidates<'_>),
 ) -> Option<MasterPoint> {
     let plane = Plane::new(master.dim, x, averaged);
     let reach = candidates.reach;
     let found = candidates.of_point(x, averaged);
     let faces = || found.iter().map(|&at| master.face(at));
     let rounding = BEYOND * faces().map(|face| face.size()).fold(0.0, f64::max);
+    let weights =
+        |face: &Face<'_>, at| face.nodes.iter().copied().zip(face.kind.values(at)).collect();
     let along_ray = faces().filter_map(|face| {
         let (at, distance) = plane.meeting(&face).filter(|(_, distance)| reach.holds(*distance))?;
         let normal = match normals {
             Normals::Averaged => averaged,
             Normals::Faces => -unit(face.outward(at))?,
         };
-        Some(MasterPoint::new(&face, at, distance, normal))
+        Some(MasterPoint { distance, weights: weights(&face, at), normal })
     });
     let along_ray = nearest(along_ray, rounding).into_iter().next()?;
     if own.end_above((x, averaged), -along_ray.distance, reach.of_shells()) {
@@ -94,7 +87,8 @@ fn meets(
     let perpendicular = faces().filter_map(|face| {
         let (at, outward) = foot(&face, x).filter(|(at, _)| face.kind.holds(*at))?;
         let distance = (face.position(at) - x).norm();
-        (distance <= most).then(|| MasterPoint::new(&face, at, distance, -outward))
+        let weights = weights(&face, at);
+        (distance <= most).then_some(MasterPoint { distance, weights, normal: -outward })
     });
     let feet = nearest(perpendicular, rounding);
     let place = |foot: &MasterPoint| master.point(&foot.weights);
@@ -114,15 +108,14 @@ fn meets(
 pub(super) fn pairs(
     sides: [&Side<'_>; 2],
     planes: &OnPlanes,
-    (mut own, mut candidates): (SearchFaces<'_>, Candidates<'_>),
+    (mut own, mut candidates): (Tree<'_>, Candidates<'_>),
     normals: Normals,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    let averaged = slave.node_normals(planes, |_, _, _| true, progress)?;
+    let averaged = slave.node_normals(planes, |_, _, _| true)?;
     let mut met: BTreeMap<usize, MasterPoint> = BTreeMap::new();
     for node in slave.all_nodes() {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let ray = (slave.position(node), averaged[&node]);
         if ray.1 == Vector3::zeros() {
             return Err(cancel(node));
@@ -132,7 +125,7 @@ pub(super) fn pairs(
         }
     }
     let mut report = SurfaceReport::default();
-    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report, progress)?;
+    let rows = whole_rows(|node| met.contains_key(&node), slave, &mut report)?;
     let pair = |node, mut row: Row| {
         let slaves: Vec<Weight> = row.slaves().collect();
         for (slave, part) in slaves {
@@ -141,15 +134,14 @@ pub(super) fn pairs(
         }
         Ok(pair_of_row(sides, planes, (node, row), met[&node].normal))
     };
-    let mut found = pairs_of_rows(slave, rows, report, pair, progress)?;
-    for at in 0..slave.count() {
-        progress.goes_on()?;
-        if !slave.face(at).nodes.iter().any(|node| met.contains_key(node)) {
-            found.report.uncovered_faces.push(at);
-        }
+    let mut found = pairs_of_rows(slave, rows, report, pair)?;
+    for face in slave.each_face() {
+        let (at, face) = face?;
+        let is_met = face.nodes.iter().any(|node| met.contains_key(node));
+        found.report.uncovered_faces.extend((!is_met).then_some(at));
     }
     // Their memory is given back between questions.
-    met.into_iter().try_for_each(|_| progress.goes_on())?;
-    candidates.look_beyond(sides, &mut found.report, progress)?;
+    met.into_iter().try_for_each(|_| slave.progress.goes_on())?;
+    candidates.look_beyond(sides, &mut found.report)?;
     Ok(found)
 }

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePair;
 use super::sector::Sector;
 use super::sector_boundary::second_boundary;
@@ -47,12 +46,8 @@ impl Numbering {
     /// Tells which images of a side's nodes are the same, by its nodes on planes and on boundaries of a sector.
     ///
     /// # Errors
-    /// Two nodes at one place of a boundary; what stops the pairing.
-    pub(super) fn relate(
-        &mut self,
-        (side, on): (&Side<'_>, &OnPlanes),
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<(), Error> {
+    /// Two nodes at one place of a boundary; as [`Self::place`]; what stops the pairing.
+    pub(super) fn relate(&mut self, (side, on): (&Side<'_>, &OnPlanes)) -> Result<(), Error> {
         for Mirror { motion, nodes } in &on.mirrors {
             nodes.iter().for_each(|node| self.lay(*node, (*motion, *node)));
         }
@@ -63,26 +58,15 @@ impl Numbering {
                 self.lay(node, (ahead, node));
                 self.lay(node, (back, node));
             }
-            for (second, first) in second_boundary(&ahead, side, progress)? {
+            for (second, first) in second_boundary(&ahead, side)? {
                 self.lay(second, (ahead, first));
                 self.lay(first, (back, second));
                 seconds.insert(second);
                 on_boundaries.extend([second, first]);
             }
         }
-        if side.is_rigid() { Ok(()) } else { self.name_firsts(&on_boundaries, &seconds) }
-    }
-
-    /// Names the first one of nodes that are images of each other, if there is one that is on no second boundary.
-    ///
-    /// # Errors
-    /// As [`Self::place`].
-    fn name_firsts(
-        &mut self,
-        on_boundaries: &BTreeSet<usize>,
-        seconds: &BTreeSet<usize>,
-    ) -> Result<(), Error> {
-        for &node in on_boundaries {
+        // The first one of nodes that are images of each other is one that is on no second boundary, if there is one.
+        for node in on_boundaries.into_iter().filter(|_| !side.is_rigid()) {
             let same = self.same((0, node))?.into_iter();
             let first = same.min_by_key(|(_, other)| (seconds.contains(other), *other));
             if let Some((place, first)) = first.filter(|(_, first)| *first != node) {
@@ -114,11 +98,7 @@ impl Numbering {
     /// # Errors
     /// There are too many of them.
     pub(super) fn place(&mut self, motion: &Motion) -> Result<usize, Error> {
-        let (middle, size) = self.around;
-        let is_same = |other: &Motion| {
-            let apart = (motion.of(middle) - other.of(middle)).amax();
-            apart + size * (motion.turn - other.turn).amax() <= self.near
-        };
+        let is_same = |other: &Motion| motion.apart(other, self.around) <= self.near;
         if let Some(place) = self.images.motions().iter().position(is_same) {
             return Ok(place);
         }

@@ -2,42 +2,33 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{pair_of_row, pairs_of_rows, whole_rows};
-use super::candidates::SearchFaces;
 use super::exact_shape::{ExactShape, Obstacle};
 use super::mesh::Side;
-use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, without_rounding};
-use super::row::Row;
+use super::row::{Row, pair_of_row, pairs_of_rows, whole_rows};
 use super::sector::Sector;
 use super::self_overlap;
 use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::unit::Unit;
-use super::with_images::WithImages;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
 
-/// A shape with its images in the neighbours of a sector.
-struct Repeated<'a> {
-    shape: &'a ExactShape,
-    /// The motions to the images, each with that back, in the host's unit.
-    steps: Vec<[Motion; 2]>,
-    scale: f64,
-}
+/// A shape and its images in the neighbours of a sector.
+struct Repeated(Vec<ExactShape>);
 
-impl<'a> Repeated<'a> {
+impl Repeated {
     /// # Errors
     /// The space in front of a plane, or inside of a hollow shape, that is not its own image: the images would cut it.
-    fn new(shape: &'a ExactShape, sector: Option<Sector>, side: &Side<'_>) -> Result<Self, Error> {
-        let there = sector.map_or(Vec::new(), |sector| sector.steps()).into_iter();
-        let steps = there.flat_map(|[ahead, back]| [[ahead, back], [back, ahead]]).collect();
-        let all = Repeated { shape, steps, scale: side.scale };
-        let differs = |step: &[Motion; 2], x: Vector3| {
-            (all.of_image(step, x).0 - shape.facing(x).0).abs() > side.nearness()
-        };
-        let is_cut = |node: usize| all.steps.iter().any(|step| differs(step, side.position(node)));
+    fn new(shape: &ExactShape, sector: Option<Sector>, side: &Side<'_>) -> Result<Self, Error> {
+        let steps = sector.map_or(Vec::new(), |sector| sector.steps());
+        let images = steps.as_flattened().iter().map(|step| shape.moved(step, side.scale));
+        let all = Repeated([*shape].into_iter().chain(images).collect());
+        let near = side.nearness();
+        let differs =
+            |image: &ExactShape, x: Vector3| (image.facing(x).0 - shape.facing(x).0).abs() > near;
+        let is_cut = |node: usize| all.0.iter().any(|image| differs(image, side.position(node)));
         match !shape.is_solid() && side.all_nodes().into_iter().any(is_cut) {
             true => refuse(
                 "it is not its own image in the next sector, and a plane or a hollow shape does not repeat: give faces",
@@ -46,17 +37,10 @@ impl<'a> Repeated<'a> {
         }
     }
 
-    /// The gap of a point and the normal into an image.
-    fn of_image(&self, [there, back]: &[Motion; 2], x: Vector3) -> (f64, Option<Vector3>) {
-        let (away, normal) = self.shape.facing(self.scale * back.of(x / self.scale));
-        (away, normal.map(|normal| there.turn * normal))
-    }
-
     /// The gap of a point and the normal into the obstacle, of the nearest image.
     fn facing(&self, x: Vector3) -> (f64, Option<Vector3>) {
-        let of_images = self.steps.iter().map(|step| self.of_image(step, x));
-        let nearer = |a: (f64, _), b: (f64, _)| if b.0 < a.0 { b } else { a };
-        of_images.fold(self.shape.facing(x), nearer)
+        let of_images = self.0.iter().map(|image| image.facing(x));
+        of_images.min_by(|a, b| a.0.total_cmp(&b.0)).expect("the shape itself")
     }
 }
 
@@ -64,45 +48,29 @@ fn refuse<T>(message: &str) -> Result<T, Error> {
     Err(Error::invalid(Argument::Obstacle, format!("obstacle: {message}")))
 }
 
-/// Pairs the nodes of a side, whose lists are in order, with an obstacle, up to the search distance (`None` or infinite:
-/// all of them).
+/// The shape with lengths in the unit of the pairing, its numbers checked.
+pub(super) fn checked(shape: &Obstacle, dim: usize, unit: &Unit) -> Result<ExactShape, Error> {
+    shape.check(dim, unit.inside).or_else(|message| refuse(&message))
+}
+
+/// The settings that a shape reads: it has normals of its own and no rim, and needs no images of planes.
+pub(super) fn settings_of_shape(settings: &SurfaceSettings) -> SurfaceSettings {
+    let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
+    SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() }
+}
+
+/// Pairs the nodes of a side that is checked with a shape, up to the search distance (`None` or infinite: all of them).
 ///
 /// # Errors
 /// As [`super::pair_surfaces`] says.
 pub(super) fn pairs(
-    side: Side<'_>,
-    obstacle: &Obstacle,
-    settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
-) -> Result<SurfacePairs, Error> {
-    // A shape has normals of its own and no rim, and needs no images of planes.
-    let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
-    let settings =
-        &SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() };
-    let settings = &settings.checked(side.dim)?;
-    let unit = Unit::of(side.lengths().chain(obstacle.lengths()));
-    let obstacle = obstacle.check(side.dim, unit.inside).or_else(|message| refuse(&message))?;
-    let side = side.checked(unit.inside, settings, progress)?;
-    let mut on = OnPlanes::new(&side, settings)?;
-    let images = WithImages::new(settings, (&side, &mut on), None, progress)?;
-    let [all, _] = images.as_ref().map_or([side; 2], |images| images.sides(&side, &side));
-    let mut found = facing(&all, (&obstacle, &on), settings, progress)?;
-    if let Some(images) = images {
-        found = images.own_pairs(found, &side)?;
-    }
-    unit.of_host(found, settings)
-}
-
-/// The pairs of a side that is checked.
-fn facing(
     side: &Side<'_>,
     (obstacle, on): (&ExactShape, &OnPlanes),
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let reach = side.scale * settings.search_distance.unwrap_or(f64::INFINITY);
-    progress.expects(side.count());
-    self_overlap::check(side, &mut SearchFaces::new(side, progress)?, reach, progress)?;
+    side.progress.expects(side.count());
+    self_overlap::check(side, &mut Tree::new(side)?, reach)?;
     let obstacle = &Repeated::new(obstacle, settings.sector, side)?;
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
@@ -123,22 +91,20 @@ fn facing(
     let mut report =
         SurfaceReport { search_distance, overlap_distance, looking_away, ..Default::default() };
     let meets = |node: usize| facing[&node].0.abs() <= reach;
-    let rows = whole_rows(meets, side, &mut report, progress)?;
+    let rows = whole_rows(meets, side, &mut report)?;
     let pair = |node, row: Row| {
         let pair = pair_of_row([side; 2], on, (node, row), facing[&node].1);
         let slaves = pair.slaves().iter();
-        let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.shape.size();
+        let size = |node: &usize| side.position(*node).lp_norm(1) + obstacle.0[0].size();
         let gap = slaves.clone().map(|(node, weight)| weight * facing[node].0).sum();
         let size = slaves.map(|(node, weight)| weight.abs() * size(node)).sum();
         Ok(SurfacePair { gap: without_rounding(gap, size), ..pair })
     };
-    let mut found = pairs_of_rows(side, rows, report, pair, progress)?;
-    on.tell(&mut found.held);
-    Ok(found)
+    pairs_of_rows(side, rows, report, pair)
 }
 
 /// Number of faces whose middles look away from a shape.
-fn looking_away(side: &Side<'_>, shape: &Repeated<'_>) -> usize {
+fn looking_away(side: &Side<'_>, shape: &Repeated) -> usize {
     let looks_away = |at: &usize| {
         let (face, middle) = (side.face(*at), side.face(*at).kind.centre());
         let (_, normal) = shape.facing(face.position(middle));

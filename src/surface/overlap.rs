@@ -113,8 +113,8 @@ fn of_distortion(distortion: f64, left: f64) -> usize {
 }
 
 impl<'a> SlaveFace<'a> {
-    /// The face with the unit normal in its middle.
-    pub(super) fn new(face: &Face<'a>, normal: Vector3) -> SlaveFace<'a> {
+    /// The face with the unit normal in its middle; points are for gaps of this degree beyond those of faces.
+    pub(super) fn new(face: &Face<'a>, normal: Vector3, of_gaps: usize) -> SlaveFace<'a> {
         let plane = Plane::new(face.kind.dim(), face.position(face.kind.centre()), normal);
         let flat = plane.flatten(face);
         let around = flat.is_curved().then(|| flat.around(AROUND));
@@ -131,7 +131,7 @@ impl<'a> SlaveFace<'a> {
         let area = measure(&own);
         // A curved face's own integrals are those of its loads, whatever its edges leave to neighbours.
         let further = around.as_ref().map_or(0, |_| of_distortion(straight.distortion(), LEFT));
-        let (outline, size, face, of_gaps) = (own, face.size(), face.clone(), 0);
+        let (outline, size, face) = (own, face.size(), face.clone());
         SlaveFace {
             plane,
             flat,
@@ -145,11 +145,6 @@ impl<'a> SlaveFace<'a> {
             face,
             of_gaps,
         }
-    }
-
-    /// The face with points for gaps that have this degree beyond those of faces.
-    pub(super) fn for_gaps(self, degree: usize) -> SlaveFace<'a> {
-        SlaveFace { of_gaps: degree, ..self }
     }
 
     /// Adds the points of what lies over a master face, if its mean distance along the normal is `wanted`. `None`: a face
@@ -207,7 +202,9 @@ impl<'a> SlaveFace<'a> {
             let straight = || [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
             let middle = on_curve.map_or_else(straight, |[_, between, _]| *between);
             for p in [Some(p), halve.then_some(middle)].into_iter().flatten() {
-                mapped.push(self.straight.place(self.flat.local_beyond(p)?));
+                // Beyond a curved face on that which the corners span, if there is no other.
+                let at = self.flat.local(p).or_else(|| self.flat.corners.local(p))?;
+                mapped.push(self.straight.place(at));
             }
         }
         if self.face.kind.is_line() {
@@ -268,7 +265,7 @@ impl<'a> SlaveFace<'a> {
             let straight = if in_plane { normal.z } else { self.straight.area(slave) };
             let area = part * normal.norm() / straight.abs();
             let at = master.local(if in_plane { p } else { [x.x, x.y] })?;
-            let height = master.height(at) - x.z;
+            let height = master.at(at)[0].z - x.z;
             range = [range[0].min(height), range[1].max(height)];
             distance += part * height;
             whole += part;

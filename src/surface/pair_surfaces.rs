@@ -1,13 +1,15 @@
 //! A surface and what it may touch to pairs. A rigid mesh is paired as a master is, and then left out of the rows, as it does
 //! not move.
 
-use super::candidates::{Candidates, Reach, SearchFaces};
+use super::candidates::{Candidates, Reach};
+use super::exact_shape::Obstacle;
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
 use super::pairs::{SurfacePair, SurfacePairs};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
-use super::surfaces::{Master, Surfaces};
+use super::surfaces::{Faces, Master, Surfaces};
 use super::symmetry::OnPlanes;
+use super::tree::Tree;
 use super::unit::Unit;
 use super::with_images::WithImages;
 use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
@@ -39,29 +41,34 @@ pub fn pair_surfaces(
     settings: &SurfaceSettings,
     monitor: &mut Monitor<'_>,
 ) -> Result<SurfacePairs, Error> {
-    let progress = &mut PairingProgress::new(monitor);
+    let progress = &PairingProgress::new(monitor);
     checked_dim(dim)?;
-    let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave)?;
+    let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave, progress)?;
     let mut found = match master {
         Master::Faces(faces) => {
             let master = slave.opposite(faces)?;
-            pair_sides([slave, master], settings, progress)?
+            pair_sides([slave, master], None, settings)?
         }
         Master::RigidFaces { coordinates, faces } => {
-            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces)?;
-            pair_sides([slave, rigid], settings, progress)?
+            let rigid =
+                Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces, progress)?;
+            pair_sides([slave, rigid], None, settings)?
         }
-        Master::RigidShape(shape) => obstacle::pairs(slave, &shape, settings, progress)?,
+        Master::RigidShape(shape) => {
+            let none = Faces { start: &[0], nodes: &[] };
+            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, &[]), none, progress)?;
+            pair_sides([slave, rigid], Some(&shape), &obstacle::settings_of_shape(settings))?
+        }
     };
     found.set_tangents(settings.tangent);
     Ok(found)
 }
 
-/// Pairs two sides whose lists are in order.
+/// Pairs two sides whose lists are in order, or a side with a shape in place of faces of the other one.
 fn pair_sides(
     [slave, master]: [Side<'_>; 2],
+    shape: Option<&Obstacle>,
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let mut settings = settings.checked(slave.dim)?;
     if master.is_rigid() {
@@ -69,24 +76,29 @@ fn pair_sides(
         settings.supports.clear();
     }
     let settings = &settings;
-    let unit = Unit::of(slave.lengths().chain(master.lengths()));
-    let slave = slave.checked(unit.inside, settings, progress)?;
-    let master = master.checked(unit.inside, settings, progress)?;
+    let of_shape = shape.map_or(Vec::new(), Obstacle::lengths);
+    let unit = Unit::of(slave.lengths().chain(master.lengths()).chain(of_shape));
+    let shape = shape.map(|shape| obstacle::checked(shape, slave.dim, &unit)).transpose()?;
+    let slave = slave.checked(unit.inside, settings)?;
+    let master = master.checked(unit.inside, settings)?;
     let [mut on, on_master] = [OnPlanes::new(&slave, settings)?, OnPlanes::new(&master, settings)?];
     let reach = reach([(&slave, &on), (&master, &on_master)], settings);
     let within = f64::max(reach.overlap, reach.open).min(span([&slave, &master]));
     // Normals are fitted to three faces around.
     let is_fitted = settings.shapes.contains(&TrueShape::Fitted);
     let wanted = within + if is_fitted { 3.0 * master.largest_face() } else { 0.0 };
-    let opposite = Some((&master, &on_master, wanted));
-    let images = WithImages::new(settings, (&slave, &mut on), opposite, progress)?;
+    let opposite = (&master, &on_master, wanted);
+    let images = WithImages::new(settings, (&slave, &mut on), opposite)?;
     let settings = &match &images {
         Some(images) => images.with_images(settings, slave.dim),
         None => settings.clone(),
     };
     let sides = [slave, master];
     let sides = images.as_ref().map_or(sides, |images| images.sides(&slave, &master));
-    let mut found = search(sides.each_ref(), (&on, reach), settings, progress)?;
+    let mut found = match &shape {
+        Some(shape) => obstacle::pairs(&sides[0], (shape, &on), settings)?,
+        None => search(sides.each_ref(), (&on, reach), settings)?,
+    };
     on.tell(&mut found.held);
     if master.is_rigid() {
         found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
@@ -98,10 +110,10 @@ fn pair_sides(
     if let Some(images) = images {
         found = images.own_pairs(found, &slave)?;
     }
-    progress.goes_on()?;
+    slave.progress.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
-    progress.goes_on()?;
-    found.report.large_facets = facets::too_large(&found, (&slave, settings), progress)?;
+    slave.progress.goes_on()?;
+    found.report.large_facets = facets::too_large(&found, (&slave, settings))?;
     found.report.stand_off = Vec::new();
     Ok(found)
 }
@@ -111,25 +123,24 @@ fn search(
     sides: [&Side<'_>; 2],
     (on, reach): (&OnPlanes, Reach),
     settings: &SurfaceSettings,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<SurfacePairs, Error> {
     let [slave, master] = sides;
-    progress.goes_on()?;
-    let mut own = SearchFaces::new(slave, progress)?;
-    let mut opposite = SearchFaces::new(master, progress)?;
-    progress.expects(2 * slave.count() + master.count());
-    self_overlap::check(slave, &mut own, reach.overlap, progress)?;
+    slave.progress.goes_on()?;
+    let mut own = Tree::new(slave)?;
+    let mut opposite = Tree::new(master)?;
+    slave.progress.expects(2 * slave.count() + master.count());
+    self_overlap::check(slave, &mut own, reach.overlap)?;
     if settings.pairing == Pairing::DualMortar {
-        self_overlap::check(master, &mut opposite, reach.overlap, progress)?;
+        self_overlap::check(master, &mut opposite, reach.overlap)?;
     }
     let candidates = Candidates::new(opposite, reach, span(sides));
     let mut found = match settings.pairing {
-        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings, progress)?,
+        Pairing::DualMortar => mortar::pairs(sides, on, (own, candidates), settings)?,
         Pairing::NodeToSurface => {
-            node_to_surface::pairs(sides, on, (own, candidates), settings.normals, progress)?
+            node_to_surface::pairs(sides, on, (own, candidates), settings.normals)?
         }
     };
-    facets::stand_off(sides, settings, (&mut found, progress))?;
+    facets::stand_off(sides, settings, &mut found)?;
     if settings.keep_turns {
         found.pairs.iter_mut().for_each(|pair| pair.keep_turns(sides));
     }

@@ -1,37 +1,39 @@
 //! The host's callback and clock while surfaces are paired.
 
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
 use crate::error::Error;
-use crate::monitor::Monitor;
+use crate::monitor::{Monitor, Watch};
 
 /// They are asked this often.
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// How far a pairing is.
-pub(super) struct PairingProgress<'a, 'm> {
-    monitor: &'a mut Monitor<'m>,
-    asked: Option<Instant>,
-    done: usize,
-    steps: usize,
+pub(super) struct PairingProgress<'m> {
+    monitor: &'m dyn Watch,
+    asked: Cell<Option<Instant>>,
+    done: Cell<usize>,
+    steps: Cell<usize>,
 }
 
-impl<'a, 'm> PairingProgress<'a, 'm> {
-    pub(super) fn new(monitor: &'a mut Monitor<'m>) -> PairingProgress<'a, 'm> {
-        PairingProgress { monitor, asked: None, done: 0, steps: 1 }
+impl<'m> PairingProgress<'m> {
+    pub(super) fn new(monitor: &'m Monitor<'_>) -> PairingProgress<'m> {
+        let (asked, done, steps) = (Cell::default(), Cell::default(), Cell::new(1));
+        PairingProgress { monitor: monitor.shared(), asked, done, steps }
     }
 
     /// So many steps are to come.
-    pub(super) fn expects(&mut self, steps: usize) {
-        self.steps += steps;
+    pub(super) fn expects(&self, steps: usize) {
+        self.steps.update(|all| all + steps);
     }
 
     /// One step is done.
     ///
     /// # Errors
     /// As [`Self::goes_on`].
-    pub(super) fn step(&mut self) -> Result<(), Error> {
-        self.done += 1;
+    pub(super) fn step(&self) -> Result<(), Error> {
+        self.done.update(|done| done + 1);
         self.goes_on()
     }
 
@@ -39,11 +41,11 @@ impl<'a, 'm> PairingProgress<'a, 'm> {
     ///
     /// # Errors
     /// [`Error::Stopped`]: the time limit is used up, or the callback cancels.
-    pub(super) fn goes_on(&mut self) -> Result<(), Error> {
-        if self.asked.is_some_and(|asked| asked.elapsed() < PAUSE) {
+    pub(super) fn goes_on(&self) -> Result<(), Error> {
+        if self.asked.get().is_some_and(|asked| asked.elapsed() < PAUSE) {
             return Ok(());
         }
-        self.asked = Some(Instant::now());
-        self.monitor.shared().pairing(self.done as f64 / self.steps as f64)
+        self.asked.set(Some(Instant::now()));
+        self.monitor.pairing(self.done.get() as f64 / self.steps.get() as f64)
     }
 }

@@ -1,10 +1,11 @@
-//! Contact pairs from surfaces: what the caller gets.
+//! Contact pairs from surfaces: what the caller gets, and their frames.
 
 use std::collections::BTreeMap;
 
 use super::images::Images;
+use super::plane;
 use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::{Matrix3, Vector3};
+use crate::linalg::vector3::{ERROR_OF_DIRECTION, Matrix3, Vector3, most_across, unit};
 
 /// A node's share in a row, and its weight.
 pub type Weight = (usize, f64);
@@ -197,4 +198,44 @@ impl SurfacePairs {
     pub fn on_symmetry(&self) -> impl Iterator<Item = usize> {
         (0..self.pairs.len()).filter(|&pair| self.held.contains_key(&self.pairs[pair].slave))
     }
+
+    /// Gives all pairs their tangents, the first towards a direction. Without one it is the axis most across all normals: an
+    /// axis for each pair by itself would jump between pairs whose normals differ by little.
+    pub(super) fn set_tangents(&mut self, towards: Option<[f64; 3]>) {
+        let towards = towards.and_then(|towards| unit(towards.into()));
+        let square = |normal: Vector3| normal.component_mul(&normal);
+        let squares = self.pairs.iter().map(|pair| pair.area * square(pair.normal.into()));
+        let towards = towards.unwrap_or_else(|| most_across(squares.sum()));
+        for at in 0..self.pairs.len() {
+            let pair = &self.pairs[at];
+            let found = tangents(self.dim, pair.normal.into(), towards, &self.held(pair.slave));
+            self.pairs[at].tangents = found.map(Into::into);
+        }
+        self.towards = towards.into();
+    }
+}
+
+/// Tangents of a normal, in space the first towards a unit vector as nearly as may be.
+pub(super) fn tangents(
+    dim: usize,
+    normal: Vector3,
+    towards: Vector3,
+    held: &[Vector3],
+) -> [Vector3; 2] {
+    let first = match held {
+        _ if dim == 2 => None,
+        // A frame has a tangent along a direction that is held.
+        [across] => {
+            let along = across.cross(&normal);
+            let nearness = |tangent: Vector3| tangent.dot(&towards).abs();
+            let is_nearer = nearness(along) >= nearness(*across) - ERROR_OF_DIRECTION;
+            let nearer = if is_nearer { along } else { *across };
+            Some(if nearer.dot(&towards) < 0.0 { -nearer } else { nearer })
+        }
+        _ => {
+            let along = towards - normal.dot(&towards) * normal;
+            unit(along).filter(|_| along.norm() > ERROR_OF_DIRECTION)
+        }
+    };
+    first.map_or_else(|| plane::tangents(dim, normal), |first| [first, normal.cross(&first)])
 }

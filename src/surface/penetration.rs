@@ -15,7 +15,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use super::candidates::{Candidates, Reach, SearchFaces};
+use super::candidates::{Candidates, Reach};
 use super::digits::ON_PLANE;
 use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
@@ -25,6 +25,7 @@ use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
+use super::tree::Tree;
 use crate::error::{Argument, Error};
 use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
@@ -55,15 +56,32 @@ pub struct Penetration {
 struct Held {
     /// By place of the node.
     nodes: Vec<bool>,
-    uncovered: Vec<bool>,
+    uncovered: HashSet<usize>,
     asked: Vec<usize>,
+}
+
+impl Held {
+    /// The least depth that counts of a point of a slave face: at a node, or in the middle.
+    fn least(&self, at: usize, face: &Face<'_>, place: Option<usize>) -> f64 {
+        let is_held = |place: &usize| self.nodes[*place];
+        let of_face = || !self.uncovered.contains(&at) && face.nodes.iter().any(is_held);
+        face.size() * least_share(place.as_ref().map_or_else(of_face, is_held))
+    }
+}
+
+/// The least depth that counts, beside the size of a face: where pairs hold it, and elsewhere.
+fn least_share(is_held: bool) -> f64 {
+    if is_held { LEAST_OF_PAIRED } else { ON_PLANE }
 }
 
 /// What has passed through, and the slave faces of which a point has.
 type Found = (Penetration, HashSet<usize>);
 
-/// A point of a side before and after the motion, and its normal before.
-type Point = ([Vector3; 2], Vector3);
+/// A point of a face before and after the motion, by its place on it and its node; `None`: the middle.
+type Point<'p> = ([&'p Face<'p>; 2], Local, Option<usize>);
+
+/// How deep a point has passed through, with the slave face and the master face.
+type Passed = (f64, usize, Option<usize>);
 
 impl KeptSurfaces {
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
@@ -84,59 +102,56 @@ impl KeptSurfaces {
         if moved.iter().any(|x| !x.is_finite()) {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
-        let progress = &mut PairingProgress::new(monitor);
+        let progress = &PairingProgress::new(monitor);
         let held = &self.held(pairs);
-        let slaves = self.before_and_after("slave", &moved, &self.slave)?;
+        let slaves = &self.before_and_after(("slave", progress), &moved, &self.slave)?;
         match &self.master {
             KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
                 let shape = shape.check(self.dim, 1.0).map_err(wrong)?;
                 let depth = |x: Vector3| -shape.facing(x).0 - self.clearance;
-                let through = |faces: [&Face<'_>; 2], at, least| {
-                    let [before, now] = faces.map(|face| depth(face.position(at)));
-                    (before <= least).then_some((now, None))
+                let through = |at, (faces, local, place): Point<'_>| {
+                    let least = held.least(at, faces[0], place);
+                    let [before, now] = faces.map(|face| depth(face.position(local)));
+                    (before <= least && now > least).then_some((now, at, None))
                 };
-                Ok(self.deepest(held, &slaves, progress, through)?.0)
+                let faces = (held.asked.iter().copied(), true);
+                Ok(self.deepest(Found::default(), faces, slaves, through)?.0)
             }
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
-                let masters = self.before_and_after("master", &moved, lists)?;
-                let (near, found) = self.through_faces(held, [&slaves, &masters], progress)?;
+                let masters = &self.before_and_after(("master", progress), &moved, lists)?;
+                let (near, found) = self.through_faces(held, [slaves, masters])?;
                 let mut lists = [vec![0], Vec::new()];
                 for &at in &held.asked {
                     lists[1].extend(slaves[0].nodes(at));
                     lists[0].push(lists[1].len());
                 }
-                let asked = self.before_and_after("slave", &moved, &lists)?;
-                self.masters_through((held, near), [&asked, &masters], found, progress)
+                let asked = &self.before_and_after(("slave", progress), &moved, &lists)?;
+                self.masters_through((held, near), [asked, masters], found)
             }
         }
     }
 
     fn held(&self, pairs: &SurfacePairs) -> Held {
         let [start, places] = &self.slave;
-        let marked = |nodes: &mut dyn Iterator<Item = usize>| {
-            let mut marks = vec![false; self.nodes.len()];
-            let places = nodes.flat_map(|node| self.nodes.binary_search(&node));
-            places.for_each(|place| marks[place] = true);
-            for (second, (first, _)) in pairs.images.on_second() {
-                let [second, first] = [second, first].map(|node| self.nodes.binary_search(node));
-                let both = second.into_iter().zip(first);
-                both.for_each(|(second, first)| marks[second] = marks[first]);
-            }
-            marks
+        let home = |node: &usize| pairs.images.home(*node).0;
+        let homes: Vec<usize> = self.nodes.iter().map(home).collect();
+        let marks = |mut nodes: Vec<usize>| -> Vec<bool> {
+            nodes.sort_unstable();
+            homes.iter().map(|node| nodes.binary_search(node).is_ok()).collect()
         };
-        let paired = marked(&mut pairs.pairs.iter().map(|pair| pair.slave));
-        let folded = marked(&mut pairs.report.folded.iter().map(|fold| fold.node));
-        let [mut uncovered, mut asked] = [(); 2].map(|()| vec![false; start.len() - 1]);
-        pairs.report.uncovered_faces.iter().for_each(|&at| uncovered[at] = true);
-        let in_part = pairs.report.uncovered_faces.iter().chain(&pairs.report.held_in_part);
-        in_part.for_each(|&at| asked[at] = true);
-        let of_pairs =
-            |at: usize| places[start[at]..start[at + 1]].iter().all(|&place| paired[place]);
-        let asked = (0..asked.len()).filter(|&at| asked[at] || !of_pairs(at)).collect();
-        let nodes =
-            paired.into_iter().zip(folded).map(|(paired, folded)| paired || folded).collect();
+        let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
+        let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
+        let set = |faces: &[usize]| faces.iter().copied().collect::<HashSet<usize>>();
+        let uncovered = set(&pairs.report.uncovered_faces);
+        let in_part = set(&pairs.report.held_in_part);
+        let is_asked = |at: &usize| {
+            let of_pairs = || places[start[*at]..start[at + 1]].iter().all(|&place| paired[place]);
+            uncovered.contains(at) || in_part.contains(at) || !of_pairs()
+        };
+        let asked = (0..start.len() - 1).filter(is_asked).collect();
+        let nodes = paired.iter().zip(folded).map(|(paired, folded)| *paired || folded).collect();
         Held { nodes, uncovered, asked }
     }
 
@@ -146,48 +161,45 @@ impl KeptSurfaces {
         &self,
         held: &Held,
         [slaves, masters]: [&[Side<'_>; 2]; 2],
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<(BTreeSet<usize>, Found), Error> {
-        let opposite = SearchFaces::new(&masters[1], progress)?;
+        let opposite = Tree::new(&masters[1])?;
         let asked = held.asked.iter().map(|&at| Hull::of(&slaves[1].face(at)).bounds());
         let mut candidates = Self::candidates(opposite, asked);
         let mut near = BTreeSet::new();
         for &at in &held.asked {
-            progress.goes_on()?;
+            masters[1].progress.goes_on()?;
             let normal = slaves[0].face(at).middle_normal();
             near.extend(candidates.of_face(&slaves[1].face(at), normal));
         }
-        let found = self.deepest(held, slaves, progress, |[first, face], at, least| {
-            let normal = first.normal(at);
-            let point = ([first, face].map(|face| face.position(at)), normal);
-            let x = point.0[1] - self.clearance * normal;
-            let behind = self.behind(point, masters, candidates.of_point(x, normal), |_| least)?;
-            Some((behind.0, Some(behind.1)))
-        })?;
+        let through = |at, point: Point<'_>| {
+            let ([first, _], local, place) = point;
+            let (normal, least) = (first.normal(local), held.least(at, first, place));
+            let found = self.behind((point, normal), masters, &mut candidates, |_| least)?;
+            Some((found.0, at, Some(found.1)))
+        };
+        let faces = (held.asked.iter().copied(), true);
+        let found = self.deepest(Found::default(), faces, slaves, through)?;
         Ok((near, found))
     }
 
     /// The search for faces behind others, however deep.
-    fn candidates<'s>(
-        opposite: SearchFaces<'s>,
-        asked: impl Iterator<Item = Bounds>,
-    ) -> Candidates<'s> {
-        let bounds = asked.chain(opposite.tree.bounds()).reduce(|a, b| a.with(&b));
+    fn candidates<'s>(opposite: Tree<'s>, asked: impl Iterator<Item = Bounds>) -> Candidates<'s> {
+        let bounds = asked.chain(opposite.bounds()).reduce(|a, b| a.with(&b));
         let span = bounds.map_or(0.0, |all| all.diagonal());
         Candidates::new(opposite, Reach { overlap: span, open: 0.0, layer: span }, span)
     }
 
-    /// The nearest of some faces that a point has passed through, with its depth. `least` tells the least depth that counts.
+    /// The nearest face that a point with a normal has passed through, with its depth. `least` tells the least depth that counts.
     fn behind(
         &self,
-        (point, normal): Point,
+        ((faces, local, _), normal): (Point<'_>, Vector3),
         [before, after]: &[Side<'_>; 2],
-        near: &[usize],
+        candidates: &mut Candidates<'_>,
         least: impl Fn(usize) -> f64,
     ) -> Option<(f64, usize)> {
-        let [origin, x] = point.map(|x| x - self.clearance * normal);
+        let [origin, x] = faces.map(|face| face.position(local) - self.clearance * normal);
         let plane = Plane::new(self.dim, x, normal);
-        let behind = near.iter().filter_map(|&at| {
+        let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
             let (local, height) = plane.meeting(&after.face(at))?;
             let apart = before.face(at).position(local) - origin;
             let (depth, least) = (-height, least(at));
@@ -202,88 +214,63 @@ impl KeptSurfaces {
         &self,
         (held, near_asked): (&Held, BTreeSet<usize>),
         [slaves, masters]: [&[Side<'_>; 2]; 2],
-        (mut found, told): Found,
-        progress: &mut PairingProgress<'_, '_>,
+        found: Found,
     ) -> Result<Penetration, Error> {
-        let opposite = SearchFaces::new(&slaves[1], progress)?;
+        let opposite = Tree::new(&slaves[1])?;
         let mut candidates = Self::candidates(opposite, std::iter::once(masters[1].bounds()));
-        let (mut counted, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
-        for of_master in near_asked {
-            progress.goes_on()?;
-            let faces = [0, 1].map(|moved| masters[moved].face(of_master));
-            let normal = faces[0].middle_normal();
-            let near = candidates.of_face(&faces[1], normal);
-            let size = faces[0].size();
+        let through = |of_master, point: Point<'_>| {
+            let ([first, _], ..) = point;
+            let (normal, size) = (first.middle_normal(), first.size());
             let least = |at: usize| {
                 let face = slaves[0].face(at);
                 // A node that stands at the end of a face that it is paired with may slide to the next one.
                 let is_held = face.nodes.iter().any(|place| held.nodes[*place]);
-                size.min(face.size()) * if is_held { LEAST_OF_PAIRED } else { ON_PLANE }
+                size.min(face.size()) * least_share(is_held)
             };
-            let nodes = faces[0].nodes.iter().enumerate();
-            for (corner, &place) in nodes.filter(|(_, place)| asks_again(&mut asked[**place])) {
-                let point = [0, 1].map(|moved| faces[moved].x[corner]);
-                let Some((depth, at)) = self.behind((point, normal), slaves, near, least) else {
+            let (depth, at) = self.behind((point, normal), slaves, &mut candidates, least)?;
+            Some((depth, held.asked[at], Some(of_master)))
+        };
+        let faces = (near_asked.into_iter(), false);
+        Ok(self.deepest(found, faces, masters, through)?.0)
+    }
+
+    /// Adds points of some faces of a side to what is found: their nodes, and their middles if these are wanted. `through` tells how
+    /// deep a point of a face has passed. They count if their slave face is not told yet; the faces that have such points are returned.
+    fn deepest(
+        &self,
+        (mut found, told): Found,
+        (faces, wants_middles): (impl Iterator<Item = usize>, bool),
+        [before, after]: &[Side<'_>; 2],
+        mut through: impl FnMut(usize, Point<'_>) -> Option<Passed>,
+    ) -> Result<Found, Error> {
+        let (mut passed, mut counted) = (HashSet::new(), HashSet::new());
+        let mut asked = vec![0; self.coordinates.len()];
+        for at in faces {
+            before.progress.goes_on()?;
+            let faces = [&before.face(at), &after.face(at)];
+            let (kind, nodes) = (faces[0].kind, faces[0].nodes);
+            let places = kind.places().iter().copied().zip(nodes.iter().copied().map(Some));
+            let points = places.chain(wants_middles.then_some((kind.centre(), None)));
+            // Not along the normals of all faces at a node: those of slivers are all near each other.
+            let mut asks = |place: Option<usize>| {
+                place.iter().for_each(|at| asked[*at] += 1);
+                place.is_none_or(|at| asked[at] <= MANY_FACES)
+            };
+            for (local, place) in points.filter(|(_, place)| asks(*place)) {
+                let Some((depth, face, master)) = through(at, (faces, local, place)) else {
                     continue;
                 };
-                let face = held.asked[at];
-                found.count += usize::from(!told.contains(&face) && counted.insert(place));
+                passed.insert(face);
+                let is_told = told.contains(&face);
+                let is_new = !is_told && place.is_none_or(|place| counted.insert(place));
+                found.count += usize::from(is_new);
                 if depth > found.depth {
-                    let (point, node) = (point[1].into(), self.nodes.get(place).copied());
-                    let master = Some(of_master);
+                    let point = faces[1].position(local).into();
+                    let node = place.and_then(|place| self.nodes.get(place).copied());
                     found = Penetration { depth, point, face, node, master, ..found };
                 }
             }
         }
-        Ok(found)
+        Ok((found, passed))
     }
-
-    /// The deepest of all points of the faces that are asked. `through` tells its depth with the master face, of both faces, the
-    /// place on them and the least depth that counts. The faces with such points are told too.
-    fn deepest(
-        &self,
-        held: &Held,
-        [before, after]: &[Side<'_>; 2],
-        progress: &mut PairingProgress<'_, '_>,
-        mut through: impl FnMut([&Face<'_>; 2], Local, f64) -> Option<(f64, Option<usize>)>,
-    ) -> Result<Found, Error> {
-        let (mut found, mut counted) = (Penetration::default(), HashSet::new());
-        let (mut told, mut asked) = (HashSet::new(), vec![0; self.coordinates.len()]);
-        for &at in &held.asked {
-            progress.goes_on()?;
-            let faces = [before.face(at), after.face(at)];
-            let size = faces[0].size();
-            let nodes = faces[0].nodes;
-            let is_held = |place: &usize| held.nodes[*place];
-            let face_is_held = !held.uncovered[at] && nodes.iter().any(is_held);
-            let places = faces[0].kind.places().iter().copied().zip(nodes.iter().map(Some));
-            let points = places.chain([(faces[0].kind.centre(), None)]);
-            let mut asks =
-                |place: Option<&usize>| place.is_none_or(|at| asks_again(&mut asked[*at]));
-            for (local, place) in points.filter(|(_, place)| asks(*place)) {
-                let is_held = place.map_or(face_is_held, is_held);
-                let node = place.map(|&place| self.nodes[place]);
-                let least = size * if is_held { LEAST_OF_PAIRED } else { ON_PLANE };
-                let passed = through(faces.each_ref(), local, least);
-                let Some((depth, master)) = passed.filter(|(depth, _)| *depth > least) else {
-                    continue;
-                };
-                told.insert(at);
-                found.count += usize::from(node.is_none_or(|node| counted.insert(node)));
-                if depth > found.depth {
-                    let point = faces[1].position(local).into();
-                    found = Penetration { depth, point, face: at, node, master, ..found };
-                }
-            }
-        }
-        Ok((found, told))
-    }
-}
-
-/// True if a node that so many of its faces have asked is asked along the normal of one more, which is counted: those of slivers
-/// are all near each other.
-fn asks_again(asked: &mut usize) -> bool {
-    let again = *asked < MANY_FACES;
-    *asked += usize::from(again);
-    again
 }

@@ -49,7 +49,7 @@ impl Plane {
     pub(super) fn meeting(&self, face: &Face<'_>) -> Option<(Local, f64)> {
         let flat = self.flatten(face);
         let at = flat.local([0.0; 2]).filter(|&at| face.kind.holds(at))?;
-        Some((at, flat.height(at)))
+        Some((at, flat.at(at)[0].z))
     }
 
     /// Projects a face.
@@ -121,11 +121,6 @@ impl<'a> Flat<'a> {
         self.curved.is_some()
     }
 
-    /// As [`Self::local`], also beyond a curved face, on that which the corners span if there is no other.
-    pub(super) fn local_beyond(&self, p: Point) -> Option<Local> {
-        self.local(p).or_else(|| self.corners.local(p))
-    }
-
     /// The polygon of the corners, moved away from their middle so far that it reaches beyond the mid nodes too, by a
     /// share of its size.
     pub(super) fn around(&self, share: f64) -> Vec<Point> {
@@ -142,11 +137,6 @@ impl<'a> Flat<'a> {
         let mut polygon: Vec<Point> = moved.map(|x| [x.x, x.y]).collect();
         clip::turn_left(&mut polygon);
         polygon
-    }
-
-    /// The height above the plane.
-    pub(super) fn height(&self, at: Local) -> f64 {
-        self.at(at)[0].z
     }
 
     /// Local coordinates of the face's point above `p`, in closed form if its edges are straight and by Newton's

@@ -10,8 +10,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::digits::ON_PLANE;
+use super::face::Face;
 use super::mesh::Side;
-use super::pairing_progress::PairingProgress;
 use super::pairs::{Fold, Weight};
 use super::row::Row;
 use super::settings::{Rims, SurfaceSettings};
@@ -60,17 +60,16 @@ pub(super) fn fold(
     settings: &SurfaceSettings,
     rows: &mut BTreeMap<usize, Row>,
     (slave, uncovered, planes): (&Side<'_>, &[usize], &OnPlanes),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Fold>, Error> {
-    let moving = Moving::new(rows, settings, slave, progress)?;
+    let moving = Moving::new(rows, settings, slave)?;
     // Those that keep their rows, `true` if their cover says so, and those that are folded with the nodes around.
-    let (kept, little) = by_cover((settings.rims, &moving), rows, (slave, uncovered), progress)?;
+    let (kept, little) = by_cover((settings.rims, &moving), rows, (slave, uncovered))?;
     let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
     let layers = if moving.little.is_empty() { 2 } else { NEAR };
-    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), layers, progress)?;
+    let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), layers)?;
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
         let takes = |home: &usize| {
             homes.get(home).is_some_and(may)
@@ -112,7 +111,7 @@ pub(super) fn fold(
             let home = rows.get_mut(home).expect("a home keeps its row");
             home.take_in((&row, moving.of(node)), worth / sum);
         }
-        progress.goes_on()?;
+        slave.progress.goes_on()?;
         let distance = (slave.position(into[0].0) - slave.position(node)).norm();
         Ok(Fold { node, into: into[0].0, distance })
     };
@@ -133,13 +132,12 @@ impl Moving {
         rows: &BTreeMap<usize, Row>,
         settings: &SurfaceSettings,
         slave: &Side<'_>,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Moving, Error> {
         let parts = rows.iter().map(|(node, row)| (*node, row.moving(*node, settings)));
         let parts: HashMap<usize, Option<f64>> =
             parts.filter(|(_, part)| *part != Some(1.0)).collect();
         let some = || parts.iter().filter_map(|(node, part)| Some((*node, (*part)?)));
-        let beside = beside((slave, &[]), some().map(|(node, _)| node), NEAR, progress)?;
+        let beside = beside((slave, &[]), some().map(|(node, _)| node), NEAR)?;
         let moves_most = |part: &Option<f64>| part.is_some_and(|part| part >= LEAST_OF_MANY);
         let is_most =
             |node: &usize| rows.contains_key(node) && parts.get(node).is_none_or(moves_most);
@@ -168,12 +166,11 @@ fn by_cover(
     (rims, moving): (Rims, &Moving),
     rows: &BTreeMap<usize, Row>,
     on: (&Side<'_>, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(Vec<usize>, Vec<Weight>), Error> {
     let (mut enough, mut little) = (Vec::new(), Vec::new());
-    let least = least_covers(rims, rows, on, progress)?;
+    let least = least_covers(rims, rows, on)?;
     for (&node, row) in rows {
-        progress.goes_on()?;
+        on.0.progress.goes_on()?;
         match least.get(&node).is_none_or(|least| row.cover() >= *least) {
             true if moving.little.contains(&node) => little.push((node, 0.0)),
             true => enough.push(node),
@@ -189,7 +186,6 @@ fn least_covers(
     rims: Rims,
     rows: &BTreeMap<usize, Row>,
     (slave, uncovered): (&Side<'_>, &[usize]),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, f64>, Error> {
     let few = |row: &Row| row.cover() < LEAST_COVER - SAME_COVER;
     let at_rims: Vec<usize> =
@@ -197,13 +193,13 @@ fn least_covers(
     if rims == Rims::Keep {
         return Ok(at_rims.into_iter().map(|node| (node, SAME_COVER)).collect());
     }
-    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR, progress)?;
+    let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR)?;
     // From node to node go the best ones alone: where many faces meet in a node all are near each other.
     let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
     for _ in 0..NEAR {
         let mut next = HashMap::with_capacity(beside.len());
         for (&node, around) in &beside {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![*at]);
             let near = around.iter().chain([&node]).flat_map(known).collect();
             next.insert(node, holders(near, rows, (slave, rows[&node].normal.normalize())));
@@ -283,16 +279,20 @@ fn beside(
     (slave, without): (&Side<'_>, &[usize]),
     nodes: impl Iterator<Item = usize>,
     layers: usize,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
     let mut found: HashMap<usize, BTreeSet<usize>> = HashMap::new();
     let mut next: BTreeSet<usize> = nodes.collect();
     for _ in 0..layers {
+        if next.is_empty() {
+            break;
+        }
         let mut around: HashMap<usize, BTreeSet<usize>> =
             next.into_iter().map(|node| (node, BTreeSet::new())).collect();
-        for at in (0..slave.count()).filter(|at| without.binary_search(at).is_err()) {
-            progress.goes_on()?;
-            let nodes = slave.face(at).nodes;
+        for face in slave.each_face() {
+            let (at, Face { nodes, .. }) = face?;
+            if without.binary_search(&at).is_ok() {
+                continue;
+            }
             for node in nodes {
                 if let Some(list) = around.get_mut(node) {
                     list.extend(nodes.iter().filter(|&other| other != node));

@@ -1,13 +1,16 @@
-//! A row while it is summed over the faces at its node.
+//! Rows while they are summed over the faces at their nodes; the rows of faces that count as covered wholly; and pairs of rows.
 
 use std::collections::BTreeMap;
 
-use super::control::Basis;
-use super::pairs::Weight;
+use super::control::{Basis, Edges};
+use super::mesh::Side;
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, Weight, without_rounding};
 use super::settings::SurfaceSettings;
 use super::shape::{MOST_NODES, Values};
-use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::Vector3;
+use super::symmetry::OnPlanes;
+use crate::error::Error;
+use crate::linalg::tolerances::{ROUNDING, ROUNDING_OF_SUM, SINGULAR};
+use crate::linalg::vector3::{Matrix3, Vector3};
 
 /// The bit of a node that is a master: it sorts masters behind all slaves.
 const MASTER: usize = 1 << (usize::BITS - 1);
@@ -143,4 +146,119 @@ fn merged(mut weights: Vec<Weight>, area: f64) -> Vec<Weight> {
     weights.iter_mut().for_each(|(_, weight)| *weight /= area);
     weights.retain(|(_, weight)| weight.abs() > ROUNDING);
     weights.as_slice().to_vec()
+}
+
+/// The pair of a slave node and its row, in the planes of symmetry on which the node stands. The gap is that between the
+/// points of both sides, and 0 without masters.
+pub(super) fn pair_of_row(
+    [slave, master]: [&Side<'_>; 2],
+    planes: &OnPlanes,
+    (node, row): (usize, Row),
+    normal: Vector3,
+) -> SurfacePair {
+    let (area, moving) = (row.area, 1.0 - row.held / row.area);
+    let normal = planes.turned(node, normal);
+    let (nodes, slave_count) = row.into_nodes();
+    let point = slave.point(&nodes[..slave_count]);
+    let gap = match &nodes[slave_count..] {
+        [] => 0.0,
+        masters => {
+            let opposite = master.point(masters);
+            let size = normal.abs().dot(&(opposite.abs() + point.abs()));
+            without_rounding(normal.dot(&(opposite - point)), size)
+        }
+    };
+    SurfacePair {
+        slave: node,
+        nodes,
+        slave_count,
+        turns: Vec::new(),
+        point: point.into(),
+        normal: normal.into(),
+        // They follow once all normals are known.
+        tangents: Default::default(),
+        gap,
+        measured_gap: gap,
+        area,
+        moving,
+    }
+}
+
+/// The pairs of rows; slave nodes without a row are unpaired. The number of slave faces and the covered area are added to
+/// the report.
+///
+/// # Errors
+/// Those of `pair`, which makes a pair of a node and its row; what stops the pairing.
+pub(super) fn pairs_of_rows(
+    slave: &Side<'_>,
+    rows: BTreeMap<usize, Row>,
+    mut report: SurfaceReport,
+    pair: impl Fn(usize, Row) -> Result<SurfacePair, Error>,
+) -> Result<SurfacePairs, Error> {
+    let kept = |(node, row)| {
+        slave.progress.goes_on()?;
+        pair(node, row)
+    };
+    let pairs: Vec<SurfacePair> = rows.into_iter().map(kept).collect::<Result<_, Error>>()?;
+    report.slave_faces = slave.count();
+    report.covered_area = pairs.iter().map(|pair| pair.area).sum();
+    let mut unpaired = slave.all_nodes();
+    slave.progress.goes_on()?;
+    let mut next = pairs.iter().peekable();
+    unpaired.retain(|node| next.next_if(|pair| pair.slave == *node).is_none());
+    Ok(SurfacePairs { dim: slave.dim, pairs, unpaired, report, ..SurfacePairs::default() })
+}
+
+/// The slave's part of the rows all of whose slave nodes meet something, as if every face were covered wholly. The area of
+/// the host's faces is added to the report.
+///
+/// # Errors
+/// What stops the pairing.
+pub(super) fn whole_rows(
+    meets: impl Fn(usize) -> bool,
+    side: &Side<'_>,
+    report: &mut SurfaceReport,
+) -> Result<BTreeMap<usize, Row>, Error> {
+    let mut edges = Edges::default();
+    for face in side.each_face() {
+        let (_, face) = face?;
+        edges.add(face.kind, face.nodes, !face.is_at_axis());
+    }
+    let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
+    for face in side.each_face() {
+        let (at, face) = face?;
+        let basis = edges.basis(face.kind, face.nodes, true);
+        let (on, integrals) = ((face.nodes, &basis), ([face.integrals(); 2], Default::default()));
+        report.slave_area += side.own_area(at, integrals.0[0]);
+        add_face(&mut rows, on, integrals, std::iter::empty(), Default::default());
+    }
+    rows.retain(|_, row| row.slaves().all(|(node, _)| meets(node)));
+    Ok(rows)
+}
+
+impl SurfacePair {
+    /// Makes the row keep rigid turns of the nodes at their places, as ties ask for.
+    ///
+    /// The points `Σ a x_s` and `Σ w x_m` of a pair of facets are apart by `r`, so that a rigid turn `u = θ × x` of both bodies moves
+    /// `d = Σ a u_s - Σ w u_m` by `θ × r`, and strains what is tied. A row that keeps turns takes the master's own part of that off,
+    /// `d - ω × r`. `ω` is the turn of the master nodes of the row by least squares: `ω = J⁺ Σ y × u`, `J = Σ (|y|² - y yᵀ)`, `y` from their
+    /// mean to each. Moments of its forces then balance as forces do, however far the points are apart.
+    pub(super) fn keep_turns(&mut self, [slave, master]: [&Side<'_>; 2]) {
+        let masters = self.masters();
+        let apart = slave.point(self.slaves()) - master.point(masters);
+        let places: Vec<Vector3> =
+            masters.iter().map(|(node, _)| master.point(&[(*node, 1.0)])).collect();
+        let size = places.iter().map(Vector3::norm).fold(0.0, f64::max);
+        if apart.norm() <= ROUNDING_OF_SUM * size {
+            return;
+        }
+        let mean = places.iter().sum::<Vector3>() / places.len() as f64;
+        let from_mean = || places.iter().map(|place| place - mean);
+        let inertia: Matrix3 =
+            from_mean().map(|y| y.norm_squared() * Matrix3::identity() - y * y.transpose()).sum();
+        // Masters on a line tell no turn about it.
+        let inverse = inertia.pseudo_inverse(SINGULAR * inertia.trace()).unwrap_or_default();
+        let of_turn = apart.cross_matrix() * inverse;
+        self.turns = from_mean().map(|y| (of_turn * y.cross_matrix()).into()).collect();
+    }
 }

@@ -79,14 +79,6 @@ impl Sector {
         point + self.axis().dot(&(x - point)) * self.axis()
     }
 
-    /// The motion to the next sector, in words.
-    pub(super) fn step_in_words(&self) -> String {
-        match self.is_shifted() {
-            true => "shifted by a period".into(),
-            false => format!("turned by one of {} sectors", self.count),
-        }
-    }
-
     /// `true` if it is another one but for rounding, on bodies within so much of the origin.
     pub(super) fn is(&self, other: &Sector, size: f64) -> bool {
         let [own, others] = [self, other].map(Sector::steps);

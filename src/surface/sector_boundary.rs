@@ -2,14 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::candidates::SearchFaces;
 use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
-use super::pairing_progress::PairingProgress;
 use super::plane::Plane;
 use super::sector::Sector;
 use super::sweep::Sweep;
+use super::tree::Tree;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3};
 
@@ -27,7 +26,6 @@ pub(super) const CLOSE: f64 = 0.01;
 pub(super) fn second_boundary(
     motion: &Motion,
     side: &Side<'_>,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<BTreeMap<usize, usize>, Error> {
     let nodes = side.all_nodes();
     let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
@@ -35,7 +33,7 @@ pub(super) fn second_boundary(
     let allowed = |node: &usize| near.max(side.left_open.min(PARTNER * rim.edge(*node)));
     let allowed: Vec<f64> = nodes.iter().map(allowed).collect();
     let widest = allowed.iter().copied().fold(near, f64::max);
-    let found = at_images(&places, |x| motion.of(x), widest, || progress.goes_on())?;
+    let found = at_images(&places, |x| motion.of(x), widest, || side.progress.goes_on())?;
     let mut second = BTreeMap::new();
     for (place, mut same) in found.into_iter().enumerate() {
         let image = motion.of(places[place]);
@@ -69,11 +67,11 @@ impl Rim {
     fn new(side: &Side<'_>) -> Rim {
         let mut counts: HashMap<[usize; 2], (usize, Option<usize>)> = HashMap::new();
         for face in 0..side.count() {
-            let (nodes, corners) = (side.nodes(face), side.corners(face));
+            let nodes = side.nodes(face);
             let mids: HashMap<usize, usize> =
                 side.kind(nodes).mids().map(|(mid, [a, _])| (a, nodes[mid])).collect();
-            for (i, &a) in corners.iter().enumerate() {
-                let b = if side.dim == 2 { a } else { corners[(i + 1) % corners.len()] };
+            for (i, [a, next]) in side.edges(face).enumerate() {
+                let b = if side.dim == 2 { a } else { next };
                 let (count, mid) = counts.entry([a.min(b), a.max(b)]).or_default();
                 *count += 1;
                 *mid = mids.get(&i).copied().filter(|_| side.dim > 2);
@@ -105,28 +103,27 @@ impl Rim {
         self.edges.get(&node).copied().unwrap_or(0.0)
     }
 
-    /// Two nodes of the rim between which, or at which, the image of another one of its nodes is, but for little of its
-    /// shortest edge; nodes that have partners need none.
+    /// Refuses a slave side on the rim of which, between two nodes or at one, the image of a node of it lies that is none of its
+    /// nodes, but for little of its shortest edge, though surfaces meet there. Nodes that have partners need none.
     ///
     /// # Errors
-    /// What stops the pairing.
-    fn met(
+    /// That; what stops the pairing.
+    fn check(
         &self,
-        motion: &Motion,
+        (sector, motion): (&Sector, &Motion),
         side: &Side<'_>,
-        has_partner: impl Fn(usize) -> bool,
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<Option<(usize, [usize; 2])>, Error> {
+        partners: &BTreeSet<usize>,
+    ) -> Result<(), Error> {
         let nodes: Vec<usize> = self.beside.keys().copied().collect();
         let places: Vec<Vector3> = nodes.iter().map(|&node| side.of_host(node)).collect();
         let lengths = nodes.iter().zip(&places).flat_map(|(node, x)| {
             self.beside[node].iter().map(move |&other| (side.of_host(other) - x).norm())
         });
         let longest = lengths.fold(side.left_open, f64::max);
-        let found = at_images(&places, |x| motion.of(x), longest, || progress.goes_on())?;
+        let found = at_images(&places, |x| motion.of(x), longest, || side.progress.goes_on())?;
         for ((&node, x), near) in nodes.iter().zip(&places).zip(found) {
             let (image, most) = (motion.of(*x), CLOSE * self.edge(node));
-            if has_partner(node) || (image - x).norm() <= most.max(side.left_open) {
+            if partners.contains(&node) || (image - x).norm() <= most.max(side.left_open) {
                 continue;
             }
             let near = near.into_iter().map(|at| nodes[at]);
@@ -140,11 +137,13 @@ impl Rim {
                 let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
                 (a + along * way - image).norm() <= most
             };
-            if let Some(ends) = pairs.find(is_met) {
-                return Ok(Some((node, ends)));
+            if let Some([a, b]) = pairs.find(is_met) {
+                let place =
+                    format!("at the edge of nodes {} and {} and is none", index(a), index(b));
+                return Err(no_match(sector, node, &place));
             }
         }
-        Ok(None)
+        Ok(())
     }
 }
 
@@ -176,20 +175,19 @@ pub(super) fn at_images<E>(
     points.iter().map(of_point).collect()
 }
 
-/// Refuses a slave side on one of whose faces the image of a node lies, and no node there.
+/// Refuses a slave side on one of whose faces, or on whose rim, the image of a node lies, and no node there.
 pub(super) fn check_boundaries(
     slave: &Side<'_>,
     (sector, images): (&Sector, &Images),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<(), Error> {
     let on_boundary: BTreeSet<usize> =
         images.on_second().iter().flat_map(|(second, (first, _))| [*second, *first]).collect();
-    let SearchFaces { mut tree, normals, .. } = SearchFaces::new(slave, progress)?;
+    let mut tree = Tree::new(slave)?;
     let (near, mut found) = (slave.nearness(), Vec::new());
     let inner = slave.all_nodes().into_iter().filter(|node| !on_boundary.contains(node));
     for node in inner {
         for motion in sector.steps().as_flattened() {
-            progress.goes_on()?;
+            slave.progress.goes_on()?;
             let x = slave.position(node);
             let image = slave.scale * motion.of(x / slave.scale);
             if (image - x).norm() <= near {
@@ -197,7 +195,7 @@ pub(super) fn check_boundaries(
             }
             tree.near(&Sweep::of_point(&image, vector3::axis(0), [near; 2]), &mut found);
             let holds = |at: &&usize| {
-                let plane = Plane::new(slave.dim, image, normals[**at]);
+                let plane = Plane::new(slave.dim, image, tree.normals[**at]);
                 plane.meeting(&slave.face(**at)).is_some_and(|(_, height)| height.abs() <= near)
             };
             if let Some(face) = found.iter().find(holds) {
@@ -206,35 +204,21 @@ pub(super) fn check_boundaries(
             }
         }
     }
-    check_rim(slave, sector, &on_boundary, progress)
-}
-
-/// Refuses a slave side on the rim of which the image of a node lies that is none of its nodes, though surfaces meet there but for
-/// the digits of coordinates.
-fn check_rim(
-    slave: &Side<'_>,
-    sector: &Sector,
-    on_boundary: &BTreeSet<usize>,
-    progress: &mut PairingProgress<'_, '_>,
-) -> Result<(), Error> {
-    let rim = Rim::new(slave);
-    for motion in sector.steps().as_flattened() {
-        let has_partner = |node: usize| on_boundary.contains(&node);
-        if let Some((node, [a, b])) = rim.met(motion, slave, has_partner, progress)? {
-            let place = format!("at the edge of nodes {} and {} and is none", index(a), index(b));
-            return Err(no_match(sector, node, &place));
-        }
-    }
-    Ok(())
+    let (rim, steps) = (Rim::new(slave), sector.steps());
+    let mut steps = steps.as_flattened().iter();
+    steps.try_for_each(|motion| rim.check((sector, motion), slave, &on_boundary))
 }
 
 /// The error of a slave node whose image lies where no node is.
 fn no_match(sector: &Sector, node: usize, place: &str) -> Error {
+    let step = match sector.is_shifted() {
+        true => "shifted by a period".into(),
+        false => format!("turned by one of {} sectors", sector.count),
+    };
     let message = format!(
-        "sector: the image of slave node {}, {}, lies {place} of its nodes: give the number of sectors of the whole or the period, \
+        "sector: the image of slave node {}, {step}, lies {place} of its nodes: give the number of sectors of the whole or the period, \
          and nodes of the two boundaries that match to the digits of their coordinates",
-        index(node),
-        sector.step_in_words()
+        index(node)
     );
     Error::invalid(Argument::Settings, message)
 }

@@ -3,11 +3,11 @@
 //! Legal surfaces pass: two sides of a plate, whose normals oppose each other; a surface folded upon
 //! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
 
-use super::candidates::{SAME_WAY, SearchFaces};
+use super::candidates::SAME_WAY;
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
-use super::pairing_progress::PairingProgress;
 use super::sweep::Sweep;
+use super::tree::Tree;
 use crate::error::Error;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
@@ -21,26 +21,22 @@ pub(super) const UPON: f64 = 0.05;
 ///
 /// # Errors
 /// The two faces, and the share that is common; what stops the pairing.
-pub(super) fn check(
-    side: &Side<'_>,
-    SearchFaces { tree, normals, .. }: &mut SearchFaces<'_>,
-    reach: f64,
-    progress: &mut PairingProgress<'_, '_>,
-) -> Result<(), Error> {
+pub(super) fn check(side: &Side<'_>, faces: &mut Tree<'_>, reach: f64) -> Result<(), Error> {
     let (mut near, mut overlaps) = (Vec::new(), Overlaps::default());
     for at in 0..side.count() {
-        progress.step()?;
+        side.progress.step()?;
         let face = side.face(at);
         let distance = reach.min(UPON * face.size());
-        tree.near(&Sweep::of_face(&face, normals[at], [distance; 2]), &mut near);
-        near.retain(|&other| other < at && normals[other].dot(&normals[at]) > SAME_WAY);
-        near.retain(|&other| {
-            side.dim == 2 || !are_neighbours(side.corners(at), side.corners(other))
-        });
+        faces.near(&Sweep::of_face(&face, faces.normals[at], [distance; 2]), &mut near);
+        near.retain(|&other| other < at && faces.normals[other].dot(&faces.normals[at]) > SAME_WAY);
+        // Of faces that look the same way and share an edge each lies on its own side of it.
+        let shares = |[a, b]: [usize; 2], other| side.edges(other).any(|edge| edge == [b, a]);
+        let is_beside = |other: usize| side.edges(at).any(|edge| shares(edge, other));
+        near.retain(|&other| side.dim == 2 || !is_beside(other));
         if near.is_empty() {
             continue;
         }
-        let in_plane = SlaveFace::new(&face, normals[at]);
+        let in_plane = SlaveFace::new(&face, faces.normals[at], 0);
         for &other in &near {
             let second = side.face(other);
             let distance = distance.min(UPON * second.size());
@@ -72,15 +68,4 @@ fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
         100.0 * share.min(1.0)
     );
     side.refuse(at, &what)
-}
-
-/// Returns `true` if two faces that look the same way share an edge, so that each lies on its own side of it: by
-/// their corners in turn.
-fn are_neighbours(a: &[usize], b: &[usize]) -> bool {
-    edges(a).any(|(from, to)| edges(b).any(|edge| edge == (to, from)))
-}
-
-fn edges(corners: &[usize]) -> impl Iterator<Item = (usize, usize)> {
-    let before = corners.last().into_iter().chain(corners);
-    before.copied().zip(corners.iter().copied())
 }

@@ -2,10 +2,9 @@
 
 use super::exact_shape::Obstacle;
 use super::sector::Sector;
-use super::symmetry_plane::SymmetryPlane;
-use crate::error::{Argument, Error};
+use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::NEGLIGIBLE;
-use crate::linalg::vector3::{Vector3, unit};
+use crate::linalg::vector3::{self, Vector3, unit};
 
 /// How the rows are made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,6 +63,39 @@ pub enum TrueShape {
     /// Curves and patches through its nodes, with normals that are fitted to the nodes around. Edges at which faces turn by
     /// more than 35 degrees stay sharp.
     Fitted,
+}
+
+/// A plane of symmetry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SymmetryPlane {
+    /// The direction across it, of any length.
+    pub normal: [f64; 3],
+    /// Where it stands along that direction, from the origin; length.
+    pub at: f64,
+}
+
+impl SymmetryPlane {
+    /// The plane across an axis, 0, 1 or 2.
+    ///
+    /// # Panics
+    /// If there is no such axis.
+    pub fn across(axis: usize, at: f64) -> SymmetryPlane {
+        SymmetryPlane { normal: vector3::axis(axis).into(), at }
+    }
+
+    /// Its place for a message.
+    pub(super) fn name(&self) -> String {
+        let [x, y, z] = self.normal;
+        let axis = (0..3).find(|&axis| self.normal == SymmetryPlane::across(axis, self.at).normal);
+        let across =
+            axis.map_or_else(|| format!("{x}, {y}, {z}"), |axis| format!("axis {}", index(axis)));
+        format!("across {across} at {}", self.at)
+    }
+
+    /// The height of a point above it.
+    pub(super) fn height(&self, normal: &Vector3, x: Vector3, scale: f64) -> f64 {
+        normal.dot(&x) - scale * self.at
+    }
 }
 
 /// Settings of the pairing.
@@ -133,23 +165,23 @@ impl SurfaceSettings {
         if let Some(distance) = self.search_distance.filter(|distance| !(*distance > 0.0)) {
             return refuse(&format!("search_distance is {distance}, it must be positive"));
         }
-        if self.axisymmetric && dim == 3 {
-            return refuse(
-                "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions",
-            );
-        }
-        if self.axisymmetric && self.keep_turns {
-            return refuse(
+        let of_rings = [
+            (dim == 3, "axisymmetric: faces of bodies of revolution are lines, in 2 dimensions"),
+            (
+                self.keep_turns,
                 "keep_turns: meridians of a body of revolution do not turn, leave it out",
-            );
-        }
-        if self.axisymmetric && self.sector.is_some() {
-            return refuse(
+            ),
+            (
+                self.sector.is_some(),
                 "axisymmetric: a body of revolution has no sector, leave one of them out",
-            );
+            ),
+        ];
+        if let Some((_, what)) =
+            of_rings.iter().find(|(is_given, _)| self.axisymmetric && *is_given)
+        {
+            return refuse(what);
         }
-        let symmetry =
-            self.planes().map_err(|message| Error::invalid(Argument::Settings, message))?;
+        let symmetry = self.planes()?;
         let (within, shift) = (self.close_within, self.clearance);
         if !(within >= 0.0) {
             return refuse(&format!("close_within is {within}, it must not be negative"));
@@ -189,18 +221,19 @@ impl SurfaceSettings {
     /// The planes of symmetry. The axis of bodies of revolution is none of them: it need not be named.
     ///
     /// # Errors
-    /// A plane that no body of revolution has, in words.
-    fn planes(&self) -> Result<Vec<SymmetryPlane>, String> {
+    /// A plane that no body of revolution has.
+    fn planes(&self) -> Result<Vec<SymmetryPlane>, Error> {
         let mut planes = self.symmetry.clone();
         if self.axisymmetric {
             let axis = |plane: &SymmetryPlane| plane.at == 0.0 && plane.normal[1] == 0.0;
             planes.retain(|plane| plane.normal[0] == 0.0 || !axis(plane));
             if let Some(plane) = planes.iter().find(|plane| plane.normal[0] != 0.0) {
-                return Err(format!(
+                let message = format!(
                     "axisymmetric: a plane of symmetry {} is none of a body of revolution: its planes are across the axis x = 0, \
                      which itself need not be named",
                     plane.name()
-                ));
+                );
+                return Err(Error::invalid(Argument::Settings, message));
             }
         }
         Ok(planes)

@@ -1,5 +1,6 @@
 //! The findings of a pairing, in words.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use super::pairs::{SurfacePair, SurfacePairs};
@@ -54,24 +55,20 @@ impl SurfacePairs {
     /// The faces that point at a master too far away, and those that overlap one by too much.
     fn beyond(&self) -> Vec<String> {
         let report = &self.report;
-        let of_sign = |is_deep: bool| {
-            let faces = report.beyond.iter().filter(move |(_, away)| (*away < 0.0) == is_deep);
-            faces.collect::<Vec<_>>()
+        let clause = |is_deep: bool, what: &str, limit: f64, at: &str| {
+            let faces = || report.beyond.iter().filter(|(_, away)| (*away < 0.0) == is_deep);
+            let nearest = faces().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+            let (count, face, distance) =
+                (faces().count(), index(nearest.0), short(nearest.1.abs()));
+            let what = format!("{what} {}", short(limit));
+            Some(format!("{count} slave faces {what}, the nearest, face {face}, {at} {distance}"))
         };
-        let within = short(report.search_distance);
-        let point_at = format!("point at a master beyond the search distance of {within}");
-        let overlap = format!("overlap a master by more than {}", short(report.overlap_distance));
-        let told = [(of_sign(false), point_at, "at"), (of_sign(true), overlap, "by")].map(
-            |(faces, what, at)| {
-                let nearest = faces.iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-                let (count, face, distance) =
-                    (faces.len(), index(nearest.0), short(nearest.1.abs()));
-                Some(format!(
-                    "{count} slave faces {what}, the nearest, face {face}, {at} {distance}"
-                ))
-            },
-        );
-        told.into_iter().flatten().collect()
+        let point_at = "point at a master beyond the search distance of";
+        let clauses = [
+            clause(false, point_at, report.search_distance, "at"),
+            clause(true, "overlap a master by more than", report.overlap_distance, "by"),
+        ];
+        clauses.into_iter().flatten().collect()
     }
 
     fn found(&self) -> String {
@@ -104,7 +101,8 @@ impl SurfacePairs {
             );
         }
         if self.images.are_of_sector() {
-            let first = self.images.on_first();
+            let on_second = self.images.on_second().values();
+            let first: BTreeSet<usize> = on_second.map(|(first, _)| *first).collect();
             let on = self.pairs.iter().filter(|pair| first.contains(&pair.slave)).count();
             found += &format!("; {on} of the pairs on the boundary of the sector");
         }

@@ -110,7 +110,7 @@ pub(super) struct Hull<'a> {
 impl<'a> Hull<'a> {
     pub(super) fn of(face: &'a Face<'_>) -> Hull<'a> {
         let points = &face.x[..face.kind.nodes()];
-        Hull { points, margin: if face.is_straight() { 0.0 } else { face.bulge() } }
+        Hull { points, margin: if face.is_bilinear() { 0.0 } else { face.bulge() } }
     }
 
     /// How far it reaches along a direction, times the length of that.
@@ -179,15 +179,12 @@ impl<'a> Sweep<'a> {
 
     /// `false` if nothing of a box is met.
     pub(super) fn meets(&self, bounds: &Bounds) -> bool {
-        self.bounds.meets(bounds) && self.is_across(bounds)
-    }
-
-    fn is_across(&self, bounds: &Bounds) -> bool {
         let [middle, half] = bounds.middle_and_half();
-        self.across.iter().all(|(along, low, high)| {
+        let is_at = |(along, low, high): &(Vector3, f64, f64)| {
             let (at, size) = (along.dot(&middle), along.abs().dot(&half));
             at - size <= *high && at + size >= *low
-        })
+        };
+        self.bounds.meets(bounds) && self.across.iter().all(is_at)
     }
 
     /// `false` if all of it lies behind the wall.

@@ -11,12 +11,10 @@ use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::normals::{at_nodes, direction};
-use super::pairing_progress::PairingProgress;
 use super::plane;
 use super::sector::Sector;
 use super::self_overlap::UPON;
-use super::settings::SurfaceSettings;
-use super::symmetry_plane::SymmetryPlane;
+use super::settings::{SurfaceSettings, SymmetryPlane};
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::{self, Vector3, unit, without};
 
@@ -222,19 +220,17 @@ impl Side<'_> {
         &self,
         planes: &OnPlanes,
         counts: impl Fn(usize, usize, &Vector3) -> bool,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<HashMap<usize, Vector3>, Error> {
         let mut normals: HashMap<usize, Vector3> = HashMap::new();
-        for at in 0..self.count() {
-            progress.goes_on()?;
-            let face = self.face(at);
+        for face in self.each_face() {
+            let (at, face) = face?;
             let at_nodes = face.nodes.iter().zip(at_nodes(&face));
             for (&node, normal) in at_nodes.filter(|(node, normal)| counts(at, **node, normal)) {
                 *normals.entry(node).or_default() += normal;
             }
         }
         for (&node, normal) in &mut normals {
-            progress.goes_on()?;
+            self.progress.goes_on()?;
             *normal = planes.turned(node, direction(*normal, 1.0).unwrap_or_default());
         }
         Ok(normals)

@@ -9,6 +9,7 @@ use super::face::Face;
 use super::mesh::Side;
 use super::shape::{BEYOND, MANY_FACES};
 use super::sweep::{Bounds, Hull, Sweep, Wall};
+use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
 /// Most faces of a leaf, and number of those whose edges walls may follow.
@@ -34,9 +35,10 @@ struct Inside {
 }
 
 /// The faces of a side.
-#[derive(Debug)]
 pub(super) struct Tree<'a> {
-    side: &'a Side<'a>,
+    pub(super) side: &'a Side<'a>,
+    /// Unit normals in the middle of the faces.
+    pub(super) normals: Vec<Vector3>,
     boxes: Vec<Bounds>,
     order: Vec<usize>,
     branches: Vec<Branch>,
@@ -45,18 +47,25 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(super) fn new(side: &'a Side<'a>) -> Tree<'a> {
+    /// # Errors
+    /// What stops the pairing.
+    pub(super) fn new(side: &'a Side<'a>) -> Result<Tree<'a>, Error> {
         let count = side.count();
-        let boxes = (0..count).map(|at| Hull::of(&side.face(at)).bounds()).collect();
-        let order = (0..count).collect();
+        let (mut normals, mut boxes) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        for face in side.each_face() {
+            let (_, face) = face?;
+            normals.push(face.middle_normal());
+            boxes.push(Hull::of(&face).bounds());
+        }
         let mut faces = vec![0; side.coordinates.len() / side.dim];
         side.faces.nodes.iter().for_each(|&node| faces[node] += 1);
         let has_hubs = faces.iter().any(|&faces| faces > MANY_FACES);
-        let mut tree = Tree { side, boxes, order, branches: Vec::new(), has_hubs };
+        let (order, branches) = ((0..count).collect(), Vec::new());
+        let mut tree = Tree { side, normals, boxes, order, branches, has_hubs };
         if count > 0 {
             tree.grow(0..count);
         }
-        tree
+        Ok(tree)
     }
 
     /// The box of all faces; `None` if there are none.

@@ -9,17 +9,16 @@ use super::curved_patch::Patch;
 use super::digits::ON_PLANE;
 use super::exact_shape::ExactShape;
 use super::face::Face;
-use super::fitted_normals::{Fitted, SMOOTH, fitted};
+use super::fitted_normals::{self, Fitted, SMOOTH};
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
 use super::overlap::Meeting;
-use super::pairing_progress::PairingProgress;
 use super::projected_shapes::Opposite;
 use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
 use crate::error::{Argument, Error, index};
 use crate::linalg::tolerances::ROUNDING;
-use crate::linalg::vector3::{Vector3, axis, unit};
+use crate::linalg::vector3::{Vector3, unit};
 
 /// A step beside the size of a face this short is the last one: what remains is of the order of its square.
 const LAST: f64 = 1e-9;
@@ -31,13 +30,6 @@ const LEAST_FALL: f64 = 0.2;
 /// are exact to some ten digits of what the shapes stand off the faces: beside these, interferences are small.
 const OF_PATCH: usize = 4;
 
-/// A side with its true shape: an exact one, or fitted normals; without either its faces.
-#[derive(Default)]
-struct TrueSide {
-    exact: Option<ExactShape>,
-    fitted: Option<Fitted>,
-}
-
 /// A face of a side with its shape.
 struct Over<'a> {
     face: &'a Face<'a>,
@@ -48,7 +40,9 @@ struct Over<'a> {
 /// Slave and master with their true shapes.
 pub(super) struct TrueSides<'a> {
     master: &'a Side<'a>,
-    sides: [TrueSide; 2],
+    /// The exact shapes, or fitted normals; without either a side is its faces.
+    exact: [Option<ExactShape>; 2],
+    fitted: [Option<Fitted>; 2],
 }
 
 impl<'a> TrueSides<'a> {
@@ -59,38 +53,43 @@ impl<'a> TrueSides<'a> {
     pub(super) fn new(
         [slave, master]: [&'a Side<'a>; 2],
         settings: &SurfaceSettings,
-        progress: &mut PairingProgress<'_, '_>,
     ) -> Result<Option<TrueSides<'a>>, Error> {
         let shapes = &settings.shapes;
         if shapes.iter().all(|shape| *shape == TrueShape::Facets) {
             return Ok(None);
         }
-        let mut side = |side: &Side<'_>, name, shape: &TrueShape| match shape {
-            TrueShape::Facets => Ok(TrueSide::default()),
-            TrueShape::Fitted => {
-                Ok(TrueSide { fitted: Some(fitted(side, progress)?), exact: None })
+        let (mut exact, mut fitted) = ([None; 2], [None, None]);
+        for (k, (side, name)) in [(slave, "slave"), (master, "master")].into_iter().enumerate() {
+            let refuse = |message: String| {
+                Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
+            };
+            match &shapes[k] {
+                TrueShape::Facets => {}
+                TrueShape::Fitted => fitted[k] = Some(fitted_normals::fitted(side)?),
+                TrueShape::Exact(shape) => {
+                    let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
+                    is_near(side, &shape).map_err(refuse)?;
+                    exact[k] = Some(shape);
+                }
             }
-            TrueShape::Exact(shape) => {
-                let refuse = |message: String| {
-                    Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
-                };
-                let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
-                is_near(side, &shape).map_err(refuse)?;
-                Ok(TrueSide { exact: Some(shape), fitted: None })
-            }
-        };
-        let sides = [side(slave, "slave", &shapes[0])?, side(master, "master", &shapes[1])?];
-        Ok(Some(TrueSides { master, sides }))
+        }
+        Ok(Some(TrueSides { master, exact, fitted }))
+    }
+
+    /// A face of the slave, 0, or of the master, 1.
+    fn over<'s>(&'s self, side: usize, at: usize, face: &'s Face<'_>) -> Over<'s> {
+        let patch = self.fitted[side].as_ref().map(|normals| Patch::new(face, &normals[at]));
+        Over { face, exact: self.exact[side].as_ref(), patch }
     }
 
     /// The size of lengths that gaps are differences of, beside the places of nodes.
     pub(super) fn size(&self) -> f64 {
-        self.sides.iter().flat_map(|side| &side.exact).map(ExactShape::size).sum()
+        self.exact.iter().flatten().map(ExactShape::size).sum()
     }
 
     /// The degree that gaps have beyond those between faces.
     pub(super) fn degree(&self) -> usize {
-        OF_PATCH * self.sides.iter().filter(|side| side.fitted.is_some()).count()
+        OF_PATCH * self.fitted.iter().flatten().count()
     }
 
     /// The gaps at the points of a slave face.
@@ -100,10 +99,10 @@ impl<'a> TrueSides<'a> {
         points: &[Meeting],
         parts: &[Opposite<'_>],
     ) -> Vec<f64> {
-        let (size, own) = (face.size(), self.sides[0].over(at, face));
+        let (size, own) = (face.size(), self.over(0, at, face));
         let of_part = |part: &Opposite<'_>| {
             let opposite = self.master.face(part.at);
-            let opposite = self.sides[1].over(part.at, &opposite);
+            let opposite = self.over(1, part.at, &opposite);
             // How far the last foot is from where facets meet: that of the next point is about as far.
             let mut moved = [0.0; 2];
             let gap = |point: &Meeting| {
@@ -164,21 +163,13 @@ fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
     Ok(())
 }
 
-impl TrueSide {
-    fn over<'s>(&'s self, at: usize, face: &'s Face<'_>) -> Over<'s> {
-        let patch = self.fitted.as_ref().map(|normals| Patch::new(face, &normals[at]));
-        Over { face, exact: self.exact.as_ref(), patch }
-    }
-}
-
 impl Over<'_> {
     /// The point of the face, or of its patch, with its derivatives; across a line that along the third axis.
     fn at(&self, at: Local) -> (Vector3, [Vector3; 2]) {
-        if let Some(patch) = &self.patch {
-            return patch.at(at);
+        match &self.patch {
+            Some(patch) => patch.at(at),
+            None => (self.face.position(at), self.face.derivatives(at)),
         }
-        let [a, b] = self.face.derivatives(at);
-        (self.face.position(at), [a, if self.face.kind.is_line() { axis(2) } else { b }])
     }
 
     /// The true point near a point of the face, and the unit normal there, outward as that of the face.

@@ -8,11 +8,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::images::Images;
 use super::mesh::Side;
 use super::motion::Motion;
 use super::numbering::{Image, Numbering};
-use super::pairing_progress::PairingProgress;
 use super::pairs::SurfacePairs;
 use super::sector_boundary::check_boundaries;
 use super::settings::{SurfaceSettings, TrueShape};
@@ -35,8 +33,7 @@ struct Extended {
 pub(super) struct WithImages {
     numbering: Numbering,
     slave: Extended,
-    /// `None`: against a shape, which has none.
-    master: Option<Extended>,
+    master: Extended,
 }
 
 /// The other side, the nodes of it that stand on planes, and how far from the slave it may be.
@@ -51,47 +48,45 @@ impl WithImages {
     pub(super) fn new(
         settings: &SurfaceSettings,
         (slave, on): (&Side<'_>, &mut OnPlanes),
-        opposite: Option<Opposite<'_, '_>>,
-        progress: &mut PairingProgress<'_, '_>,
+        (master, on_master, reach): Opposite<'_, '_>,
     ) -> Result<Option<WithImages>, Error> {
         if slave.count() == 0 || settings.sector.is_none() && settings.symmetry.is_empty() {
             return Ok(None);
         }
         let sector = settings.sector;
         let mut numbering = Numbering::new(sector, slave);
-        numbering.relate((slave, on), progress)?;
+        numbering.relate((slave, on))?;
         if let Some(sector) = &sector {
-            check_boundaries(slave, (sector, &numbering.images), progress)?;
+            check_boundaries(slave, (sector, &numbering.images))?;
         }
         // Rows depend on the cover of nodes up to eight faces away, and fitted normals on two more.
         let layers = if settings.shapes.contains(&TrueShape::Fitted) { 10 } else { 8 };
-        let faces = layers_beyond(&mut numbering, (slave, layers), progress)?;
-        let own = Extended::new(&mut numbering, slave, &faces, progress)?;
+        let faces = layers_beyond(&mut numbering, (slave, layers))?;
+        let own = Extended::new(&mut numbering, slave, &faces)?;
         on.see(&numbering.images);
-        let mut master = None;
-        if let Some((side, on, reach)) = opposite {
-            let near = places(slave, &numbering.images).widened(reach / slave.scale);
-            let mut of_rigid;
-            let of_master = if side.is_rigid() {
-                of_rigid = Numbering::new(sector, side);
-                &mut of_rigid
-            } else {
-                &mut numbering
-            };
-            of_master.relate((side, on), progress)?;
-            let faces = images_near(of_master, (side, on), &near, progress)?;
-            master = Some(Extended::new(of_master, side, &faces, progress)?);
-        }
-        let has_some = |side: &Extended| !side.origins.is_empty();
-        let is_alone = !has_some(&own) && !master.as_ref().is_some_and(has_some);
+        // A box around the slave and its images, in the host's unit.
+        let of_host = |node: usize| slave.of_host(node);
+        let places = slave.all_nodes().into_iter().map(of_host);
+        let near = Bounds::of(places.chain(numbering.images.positions(of_host)));
+        let near = near.widened(reach / slave.scale);
+        let mut of_rigid;
+        let of_master = if master.is_rigid() {
+            of_rigid = Numbering::new(sector, master);
+            &mut of_rigid
+        } else {
+            &mut numbering
+        };
+        of_master.relate((master, on_master))?;
+        let faces = images_near(of_master, (master, on_master), &near)?;
+        let master = Extended::new(of_master, master, &faces)?;
+        let has_some = !own.origins.is_empty() || !master.origins.is_empty();
         let all = WithImages { numbering, slave: own, master };
-        Ok(Some(all).filter(|_| sector.is_some() || !is_alone))
+        Ok(Some(all).filter(|_| sector.is_some() || has_some))
     }
 
     /// Both sides with their images.
     pub(super) fn sides<'a>(&'a self, slave: &Side<'a>, master: &Side<'a>) -> [Side<'a>; 2] {
-        let master = self.master.as_ref().map_or(*master, |images| images.on(master));
-        [self.slave.on(slave), master]
+        [self.slave.on(slave), self.master.on(master)]
     }
 
     /// The supports of nodes along axes, with those of their images. Those of second boundaries are images too: there the host has
@@ -147,12 +142,7 @@ impl Extended {
     ///
     /// # Errors
     /// Too many images; what stops the pairing.
-    fn new(
-        numbering: &mut Numbering,
-        side: &Side<'_>,
-        faces: &[Image],
-        progress: &mut PairingProgress<'_, '_>,
-    ) -> Result<Extended, Error> {
+    fn new(numbering: &mut Numbering, side: &Side<'_>, faces: &[Image]) -> Result<Extended, Error> {
         let Faces { start, nodes } = side.faces;
         let mut all = Extended {
             coordinates: side.coordinates.to_vec(),
@@ -161,7 +151,7 @@ impl Extended {
             origins: faces.iter().map(|(_, face)| *face).collect(),
         };
         for &(place, face) in faces {
-            progress.goes_on()?;
+            side.progress.goes_on()?;
             let (nodes, corners) = (side.face(face).nodes, side.corners(face).len());
             let first = all.nodes.len();
             for &node in nodes {
@@ -196,19 +186,18 @@ impl Extended {
 fn layers_beyond(
     numbering: &mut Numbering,
     (side, layers): (&Side<'_>, usize),
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Image>, Error> {
     let mut around: HashMap<usize, Vec<usize>> = HashMap::new();
-    for face in 0..side.count() {
-        progress.goes_on()?;
-        side.face(face).nodes.iter().for_each(|node| around.entry(*node).or_default().push(face));
+    for face in side.each_face() {
+        let (at, face) = face?;
+        face.nodes.iter().for_each(|node| around.entry(*node).or_default().push(at));
     }
     let (mut found, mut known): (Vec<Image>, HashSet<Image>) = Default::default();
     let mut last: Vec<Image> = numbering.on_boundaries().map(|node| (0, node)).collect();
     for _ in 0..layers {
         let before = found.len();
         for image in std::mem::take(&mut last) {
-            progress.goes_on()?;
+            side.progress.goes_on()?;
             for (place, node) in numbering.same(image)?.into_iter().filter(|(place, _)| *place > 0)
             {
                 let faces = around[&node].iter().map(|face| (place, *face));
@@ -233,7 +222,6 @@ fn images_near(
     numbering: &mut Numbering,
     (side, on): (&Side<'_>, &OnPlanes),
     near: &Bounds,
-    progress: &mut PairingProgress<'_, '_>,
 ) -> Result<Vec<Image>, Error> {
     let nodes = side.all_nodes();
     let steps = numbering.steps(on);
@@ -245,7 +233,7 @@ fn images_near(
     while let Some(&place) = places.get(next) {
         next += 1;
         for step in &steps {
-            progress.goes_on()?;
+            side.progress.goes_on()?;
             let motion = numbering.images.motion(place).after(step);
             let there = numbering.place(&motion)?;
             if !places.contains(&there) && bounds(&nodes, &motion).meets(near) {
@@ -256,18 +244,10 @@ fn images_near(
     let mut found = Vec::new();
     for &place in &places[1..] {
         let motion = numbering.images.motion(place);
-        for face in 0..side.count() {
-            progress.goes_on()?;
-            if bounds(side.face(face).nodes, &motion).meets(near) {
-                found.push((place, face));
-            }
+        for face in side.each_face() {
+            let (at, face) = face?;
+            found.extend(bounds(face.nodes, &motion).meets(near).then_some((place, at)));
         }
     }
     Ok(found)
-}
-
-/// A box around a side and its images, in the host's unit.
-fn places(side: &Side<'_>, images: &Images) -> Bounds {
-    let own = side.all_nodes().into_iter().map(|node| side.of_host(node));
-    Bounds::of(own.chain(images.positions(|node| side.of_host(node))))
 }

@@ -4,8 +4,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::candidates::SAME_WAY;
 use super::digits::ON_PLANE;
-use super::frames::tangents;
-use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport};
+use super::pairs::{SurfacePair, SurfacePairs, SurfaceReport, tangents};
 use super::sector_boundary::{CLOSE, at_images};
 use super::surfaces::Faces;
 use super::sweep::Bounds;
@@ -72,7 +71,13 @@ fn join(zones: &[ContactZone<'_>]) -> Result<Joined, String> {
         for pair in &contact.pairs {
             let pair = pair.renumbered(&contact.images, &numbers);
             let of_node = places.entry(pair.slave).or_default();
-            let same = of_node.iter().find(|&&at| parts[at].0[0].is_of_the_surface_of(&pair));
+            // Parts of one smooth surface, and both against bodies or against obstacles.
+            let same = of_node.iter().find(|&&at| {
+                let other = &parts[at].0[0];
+                let [own, others] = [&pair, other].map(|pair| Vector3::from(pair.normal));
+                let are_alike = pair.masters().is_empty() == other.masters().is_empty();
+                are_alike && own.dot(&others) > SAME_WAY
+            });
             if let Some(&at) = same {
                 parts[at].0.push(pair);
             } else {
@@ -117,14 +122,13 @@ fn check(zones: &[ContactZone<'_>]) -> Result<(), String> {
             return Err(named(&format!("is in {} dimensions, unlike", contact.dim)));
         }
         if contact.axisymmetric != first.contact.axisymmetric {
-            let [own, other] = if contact.axisymmetric {
-                ["a body of revolution", "in the plane"]
-            } else {
-                ["in the plane", "a body of revolution"]
-            };
+            let kinds = ["in the plane", "a body of revolution"];
+            let kind = |contact: &SurfacePairs| kinds[usize::from(contact.axisymmetric)];
             return Err(format!(
-                "zone '{name}' is {own}, and zone '{}' is {other}: give axisymmetric alike to the pairings of all zones",
-                first.name
+                "zone '{name}' is {}, and zone '{}' is {}: give axisymmetric alike to the pairings of all zones",
+                kind(contact),
+                first.name,
+                kind(first.contact)
             ));
         }
     }
@@ -255,13 +259,6 @@ fn folded_at_cuts(zones: &[ContactZone<'_>]) -> usize {
 }
 
 impl SurfacePair {
-    /// Returns `true` if the faces of both, around one node, are parts of one smooth surface, and both face bodies or
-    /// obstacles.
-    fn is_of_the_surface_of(&self, other: &SurfacePair) -> bool {
-        let [own, others] = [self, other].map(|pair| Vector3::from(pair.normal));
-        own.dot(&others) > SAME_WAY && self.masters().is_empty() == other.masters().is_empty()
-    }
-
     /// The sum of the rows of one node on parts of the faces around it, by their areas, with a first tangent towards a direction.
     /// The node is held along orthonormal directions.
     fn sum(
