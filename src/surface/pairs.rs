@@ -43,7 +43,7 @@ pub struct SurfacePair {
     pub moving: f64,
 }
 
-/// A slave node with little cover whose row is in those of others.
+/// A slave node with little cover, or one that supports hold, whose row is in those of others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
     /// The node.
@@ -52,6 +52,8 @@ pub struct Fold {
     pub into: usize,
     /// The distance between them.
     pub distance: f64,
+    /// `true` if supports hold it, and masters of its row.
+    pub is_held: bool,
 }
 
 /// A report on the faces and nodes that have no pair of their own.

@@ -56,7 +56,8 @@ pub struct Penetration {
 struct Held {
     /// By place of the node.
     nodes: Vec<bool>,
-    uncovered: HashSet<usize>,
+    /// Ascending.
+    uncovered: Vec<usize>,
     asked: Vec<usize>,
 }
 
@@ -64,7 +65,8 @@ impl Held {
     /// The least depth that counts of a point of a slave face: at a node, or in the middle.
     fn least(&self, at: usize, face: &Face<'_>, place: Option<usize>) -> f64 {
         let is_held = |place: &usize| self.nodes[*place];
-        let of_face = || !self.uncovered.contains(&at) && face.nodes.iter().any(is_held);
+        let of_face =
+            || self.uncovered.binary_search(&at).is_err() && face.nodes.iter().any(is_held);
         face.size() * least_share(place.as_ref().map_or_else(of_face, is_held))
     }
 }
@@ -142,17 +144,18 @@ impl KeptSurfaces {
             homes.iter().map(|node| nodes.binary_search(node).is_ok()).collect()
         };
         let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
-        let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
-        let set = |faces: &[usize]| faces.iter().copied().collect::<HashSet<usize>>();
-        let uncovered = set(&pairs.report.uncovered_faces);
-        let in_part = set(&pairs.report.held_in_part);
+        // Where supports hold both sides no pair keeps them apart.
+        let folded = pairs.report.folded.iter().filter(|fold| !fold.is_held);
+        let folded = marks(folded.map(|fold| fold.node).collect());
+        let [uncovered, in_part] = [&pairs.report.uncovered_faces, &pairs.report.held_in_part];
         let is_asked = |at: &usize| {
             let of_pairs = || places[start[*at]..start[at + 1]].iter().all(|&place| paired[place]);
-            uncovered.contains(at) || in_part.contains(at) || !of_pairs()
+            let [uncovered, in_part] = [uncovered, in_part].map(|list| list.binary_search(at));
+            uncovered.is_ok() || in_part.is_ok() || !of_pairs()
         };
         let asked = (0..start.len() - 1).filter(is_asked).collect();
         let nodes = paired.iter().zip(folded).map(|(paired, folded)| *paired || folded).collect();
-        Held { nodes, uncovered, asked }
+        Held { nodes, uncovered: uncovered.clone(), asked }
     }
 
     /// The master faces before or behind those that are asked; what has passed through of the slave, and the slave faces of
