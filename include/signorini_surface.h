@@ -251,9 +251,10 @@ struct signorini_surface_settings {
     /**
      * Number of degrees of freedom that are fixed, and of those that equations derive from fixed
      * ones alone; default 0. Give them with dual mortar where supports hold both sides in one
-     * place: a slave node that they hold along its normal, beside one that moves and upon a master
-     * that they hold, then has no pair, as at rims, if both touch there. Its force would be any
-     * number.
+     * place: a slave node that they hold along its normal, over masters some of which they hold,
+     * then has no pair, as at rims. Its force would be any number. It keeps its pair where all
+     * around it is held, as of a die, and three tenths of its masters move. Of a penetration
+     * there gaps have the part that moves.
      */
     int64_t n_fixed;
     /** These degrees of freedom, numbered as for signorini_model_new_sparse. */

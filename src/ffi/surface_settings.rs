@@ -144,9 +144,10 @@ pub struct SignoriniSurfaceSettings {
     pub reserved: i32,
     /// Number of degrees of freedom that are fixed, and of those that equations derive from fixed
     /// ones alone; default 0. Give them with dual mortar where supports hold both sides in one
-    /// place: a slave node that they hold along its normal, beside one that moves and upon a master
-    /// that they hold, then has no pair, as at rims, if both touch there. Its force would be any
-    /// number.
+    /// place: a slave node that they hold along its normal, over masters some of which they hold,
+    /// then has no pair, as at rims. Its force would be any number. It keeps its pair where all
+    /// around it is held, as of a die, and three tenths of its masters move. Of a penetration
+    /// there gaps have the part that moves.
     pub n_fixed: i64,
     /// These degrees of freedom, numbered as for signorini_model_new_sparse.
     pub fixed: *const i64,

@@ -118,9 +118,9 @@ pub struct SurfaceSettings {
     /// pair, and the host's displacements obey `u = Q u'`.
     pub sector: Option<Sector>,
     /// Nodes of both sides with an axis along which supports hold them, in any order. The row of a slave node that is held along
-    /// its normal, beside one that is not, and names a master that is held along it too, goes to a node of its own faces, as at rims, if both touch there: all
-    /// that is left of such a row are small weights of masters beside the support, which forces without end would pull at. Of dual
-    /// mortar.
+    /// its normal, as are some of its masters, goes to nodes up to three faces away that move, as at rims: all that is left of such a row
+    /// are small weights of masters beside the support, which forces without end would pull at. Where the nodes beside it are held too, as
+    /// of a die, it stays if three tenths of its masters move. Of dual mortar.
     pub supports: Vec<(usize, usize)>,
     /// Normals of the pairs.
     pub normals: Normals,

@@ -7,6 +7,7 @@ import itertools
 import os
 import sys
 import unittest
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -270,18 +271,24 @@ class Pairs(unittest.TestCase):
         size = 2 * len(at)
         K = np.ones(size), np.arange(size), np.arange(size + 1)
 
-        def contact(fixed, **settings):
+        def model(fixed, **settings):
             return signorini.Model.from_meshes(
                 K, slave, master, fixed=fixed, settings=settings,
-                slave_faces=lambda at: at[:, 1] == 1, master_faces=lambda at: at[:, 1] == 1).contact
+                slave_faces=lambda at: at[:, 1] == 1, master_faces=lambda at: at[:, 1] == 1)
         dofs = (2 * np.array(heads)[:, None] + [0, 1]).ravel()
-        by_equations = contact(dofs, equations=follow[::-1])
-        by_fixed = contact((2 * np.concatenate(ends)[:, None] + [0, 1]).ravel())
-        self.assertLess(by_fixed.pairs, contact(()).pairs)
+        held = model((2 * np.concatenate(ends)[:, None] + [0, 1]).ravel())
+        by_equations, by_fixed = model(dofs, equations=follow[::-1]).contact, held.contact
+        self.assertLess(by_fixed.pairs, model(()).contact.pairs)
         np.testing.assert_array_equal(by_equations.nodes, by_fixed.nodes)
         for (dofs_of, weights), (known, exact) in zip(by_equations.rows, by_fixed.rows, strict=True):
             np.testing.assert_array_equal(dofs_of, known)
             np.testing.assert_array_equal(weights, exact)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            for gap in (None, by_fixed.gaps + 0.1, by_fixed.gaps - 0.1):
+                held.solve(np.zeros(size), gap)
+        self.assertRegex("; ".join(str(warning.message) for warning in caught),
+                         "^gap at slave node [14] is -0.1, a penetration, beside supports that hold both sides: [^;]*$")
 
     def test_model(self):
         """The two bodies apart, with a matrix each, give the forces of both in one matrix."""

@@ -51,16 +51,15 @@ class Equations:
                 for of, (begin, end) in zip(self.dependent, ends)]
 
     def held(self, fixed):
-        """fixed, and the degrees of freedom that depend on no others than these."""
-        size = 1 + int(max(self.dependent.max(initial=-1), self.dofs.max(initial=-1), np.max(fixed, initial=-1)))
-        is_held, rows = np.zeros(size, bool), np.repeat(np.arange(len(self.dependent)), np.diff(self.start))
-        is_held[fixed] = True
+        """fixed, and the degrees of freedom that depend on no others than these, ascending."""
+        known, places = np.unique(np.concatenate([self.dependent, self.dofs]), return_inverse=True)
+        dependent, dofs = np.split(places, [len(self.dependent)])
+        is_held, rows = np.isin(known, fixed), np.repeat(np.arange(len(dependent)), np.diff(self.start))
         while True:  # dependents may depend on others, in no circle
-            free = np.bincount(rows, ~is_held[self.dofs] & (self.coefficients != 0), len(self.dependent))
-            more = self.dependent[(free == 0) & ~is_held[self.dependent]]
-            if not len(more):
-                return np.flatnonzero(is_held)
-            is_held[more] = True
+            free = np.bincount(rows, ~is_held[dofs] & (self.coefficients != 0), len(dependent))
+            if is_held[dependent[free == 0]].all():
+                return np.union1d(fixed, known[is_held])
+            is_held[dependent[free == 0]] = True
 
     def extended(self, u, enough=None):
         """u, and behind its end what the equations give to those that depend on it; so many entries are enough, None: all.

@@ -21,7 +21,7 @@ from ._results import Enclosure, Output, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
-from ._symmetry import (warn_of_facets, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
+from ._symmetry import (warn_of_facets, warn_of_gaps, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
                         warn_of_rings, warn_of_slips, warn_of_supports)
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
@@ -402,12 +402,16 @@ class Model(Remade):
         second = result.second and self._of_case(result.second, case, gap)
         return result._replace(contact=self._zones or self.contact, second=second, gaps=gaps, slip0=slip0)
 
+    def _contacts(self):
+        """The contacts with their names and the places of their pairs."""
+        if self._zones:
+            return [(name, one, self._zones.places[name]) for name, one in self._zones.contacts.items()]
+        return [(None, self.contact, slice(None))] if self.contact else []
+
     def _warn_of_slips(self, results):
         """Warns of pairs that slip by more than their face in one of the solutions."""
-        contacts = self._zones.contacts if self._zones else {None: self.contact} if self.contact else {}
         solved = [result for result in results if result.status == Status.SOLVED]
-        for name, contact in contacts.items():
-            place = self._zones.places[name] if self._zones else slice(None)
+        for name, contact, place in self._contacts():
             for result in solved:
                 warn_of_slips(contact, result.d[place], result.state[place], name)
 
@@ -545,8 +549,10 @@ class Model(Remade):
             gap = self.contact.gaps
         gap = per_pair("gap", gap, self.pairs, self.dim, cases)
         if self.contact is not None and (gap == (self._zones or self.contact)._paired_gaps).all(axis=-1).any():
-            for name, one in (self._zones.contacts if self._zones else {None: self.contact}).items():
+            for name, one, _ in self._contacts():
                 warn_of_facets(one, name)
+        for name, one, place in self._contacts():
+            warn_of_gaps(one, gap[..., place], name)
         return Case(
             f, prescribed, gap, friction.law,
             friction.numbers(self.pairs, self.dim, cases),

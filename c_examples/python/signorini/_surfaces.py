@@ -219,7 +219,7 @@ class SurfacePairs(Remade):
             point = fit("point", sector.point, [(self.dim,)], f"a place, shape {(self.dim,)}")
             axis = fit("axis", sector.axis, [(3,)], "a direction, shape (3,)")
             settings.sectors, settings.sector_point, settings.sector_axis = sector.count, at(point), at(axis)
-        fixed = indices(supports(fixed))
+        self._fixed = fixed = indices(supports(fixed))
         self.knows_supports = len(fixed) > 0
         settings.n_fixed, settings.fixed = len(fixed), at(fixed) if len(fixed) else None
         if tangent is not None:

@@ -55,8 +55,8 @@ def warn_of_supports(contact, fixed, name=None):
     fixed = np.asarray(fixed)
     if not len(fixed) or not contact.pairs or contact.is_with_obstacle or contact.knows_supports:
         return
-    is_fixed = np.zeros(1 + max(fixed.max(), *(dofs.max() for dofs, _ in contact.rows), contact._least), bool)
-    is_fixed[fixed] = True
+    is_fixed = np.zeros(1 + max(*(dofs.max() for dofs, _ in contact.rows), contact._least), bool)
+    is_fixed[fixed[fixed < len(is_fixed)]] = True
     held = is_fixed[contact._dofs_of(contact.nodes)]
 
     def along(normal, free):
@@ -80,6 +80,22 @@ def warn_of_supports(contact, fixed, name=None):
                  "this pair are masters beside the support, so that its force may be any number: give fixed to pair_surfaces, or pair "
                  "by node_to_surface")
             return
+
+
+def warn_of_gaps(contact, gap, name=None):
+    """Warns of cases with penetrations of their own at pairs that have taken in nodes between supports, which these cannot leave."""
+    if not contact.knows_supports or not len(contact.folded) or not contact.pairs:
+        return
+    place = {node: pair for pair, node in enumerate(contact.nodes.tolist())}
+    pairs = np.array([place[home] for home in contact.folded[:, 1].tolist()])
+    is_free = ~np.isin(contact._dofs_of(contact.folded[:, 0]), contact._fixed)
+    pairs = pairs[np.linalg.norm(np.where(is_free, contact.normals[pairs], 0.0), axis=1) <= _ALONG]
+    least = np.minimum(contact._paired_gaps[pairs], 0.0)
+    if (gap[..., pairs] < least).any():
+        worst = pairs[(gap[..., pairs] - least).reshape(-1, len(pairs)).min(axis=0).argmin()]
+        tell((f"zone {name!r}: " if name else "") + f"gap at slave node {contact.nodes[worst]} is {gap[..., worst].min():.3g}, a penetration, "
+             "beside supports that hold both sides: these cannot part, so that the pressure beside them is too large: give an interference "
+             "by clearance to pair_surfaces, which leaves it out there")
 
 
 def _beside(contact, nodes):
