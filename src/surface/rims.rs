@@ -67,15 +67,12 @@ pub(super) fn fold(
     let mut homes: HashMap<usize, bool> = kept.into_iter().map(|node| (node, true)).collect();
     let layers = if moving.little.is_empty() { 2 } else { NEAR };
     let beside = beside((slave, &[]), little.iter().map(|(node, _)| *node), layers)?;
+    let fits = |home, node| planes.stays(home, node) && moving.takes(home, node);
     let mut gone: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for (node, cover) in little {
         slave.progress.goes_on()?;
         let may = |by_cover: &bool| *by_cover || cover < LITTLE_COVER - SAME_COVER;
-        let takes = |home: &usize| {
-            homes.get(home).is_some_and(may)
-                && planes.stays(*home, node)
-                && moving.takes(*home, node)
-        };
+        let takes = |home: &usize| homes.get(home).is_some_and(may) && fits(*home, node);
         let most = match cover < NEXT_BUT_ONE {
             true if moving.little.contains(&node) => NEAR,
             little => 1 + usize::from(little),
@@ -88,9 +85,7 @@ pub(super) fn fold(
         }
     }
     let shares = |(node, around): (usize, BTreeSet<usize>)| {
-        let keeps = |home: &usize| {
-            homes.contains_key(home) && planes.stays(*home, node) && moving.takes(*home, node)
-        };
+        let keeps = |home: &usize| homes.contains_key(home) && fits(*home, node);
         let squared = |home| (rows[&home].middle() - rows[&node].middle()).norm_squared();
         // Two rows may have one middle.
         let away = |home| (home, squared(home).max(f64::MIN_POSITIVE));
