@@ -43,7 +43,7 @@ impl Unit {
             pair.measured_gap = pair.gap;
             pair.gap = settings.gap(pair.gap);
             // Of a penetration where supports hold both sides nothing is left to the others.
-            pair.gap = pair.gap.max(0.0) + pair.moving * pair.gap.min(0.0);
+            pair.gap = pair.gap.max(pair.moving * pair.gap);
             area(&mut pair.area);
             if !pair.area.is_normal() {
                 let message = format!(
