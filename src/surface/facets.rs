@@ -126,7 +126,8 @@ pub(super) fn too_large(
         // Nodes that were moved onto the other side have left nearly nothing between them.
         let meets = pair.measured_gap.abs() <= ALLOWED * ALLOWED * lost.abs();
         let lost = if meets { 0.0 } else { lost };
-        let [seen, interference] = [0.0, lost].map(|lost| -settings.gap(pair.measured_gap - lost));
+        let [seen, interference] =
+            [0.0, lost].map(|lost| -settings.gap(pair.measured_gap - lost, pair.moving));
         let change = (interference - seen).abs();
         // A fit without play is one but for the accuracy of what is lost.
         let overlap = f64::max(seen, interference + ALLOWED * change);

@@ -148,10 +148,12 @@ pub struct SurfaceSettings {
 }
 
 impl SurfaceSettings {
-    /// The gap of a pair from the measured one.
-    pub(super) fn gap(&self, measured: f64) -> f64 {
+    /// The gap of a pair from the measured one. Of sides within each other the part that moves counts: what supports hold there is not
+    /// left to the rest.
+    pub(super) fn gap(&self, measured: f64, moving: f64) -> f64 {
         let closed = measured.abs() <= self.close_within;
-        self.clearance + if closed { 0.0 } else { measured }
+        let apart = self.clearance + if closed { 0.0 } else { measured };
+        apart.max(moving * apart)
     }
 
     /// The settings, checked, with a unit vector as axis of the sector.

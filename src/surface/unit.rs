@@ -41,9 +41,7 @@ impl Unit {
             pair.point.iter_mut().for_each(length);
             length(&mut pair.gap);
             pair.measured_gap = pair.gap;
-            pair.gap = settings.gap(pair.gap);
-            // Of a penetration where supports hold both sides nothing is left to the others.
-            pair.gap = pair.gap.max(pair.moving * pair.gap);
+            pair.gap = settings.gap(pair.gap, pair.moving);
             area(&mut pair.area);
             if !pair.area.is_normal() {
                 let message = format!(
