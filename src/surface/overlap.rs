@@ -34,9 +34,6 @@ const OF_BENDING: f64 = 0.125;
 /// points along a line by .37 at either end.
 const BEYOND_POINTS: f64 = 0.5;
 
-/// At this distortion a corner is straight, and at this slope by a warp no series of the area converges.
-const FOLDED: f64 = 1.0;
-
 /// A point where a slave and a master face lie over each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
@@ -121,7 +118,7 @@ impl<'a> SlaveFace<'a> {
         let (of_corners, bending) = (flat.corners.distortion(), flat.bending());
         // Local coordinates of a triangle have no right angle of their own, by which its mirror image is cut likewise.
         let are_straight = face.kind.is_triangle() || of_corners > bending;
-        let (straight, bending) = match around.is_none() || are_straight && of_corners < FOLDED {
+        let (straight, bending) = match around.is_none() || are_straight && of_corners < 1.0 {
             true => (flat.corners, bending),
             false => (Bilinear::LOCAL, flat.distortion()),
         };
@@ -234,7 +231,8 @@ impl<'a> SlaveFace<'a> {
     fn further_degrees(&self, master: &Flat<'_>) -> Option<usize> {
         let distortion = self.flat.distortion().max(master.distortion());
         let warp = self.flat.warp();
-        if !(distortion < FOLDED && warp < FOLDED) {
+        // At a distortion of 1 a corner is straight, and at a slope of 1 by a warp no series of the area converges.
+        if !(distortion < 1.0 && warp < 1.0) {
             return None;
         }
         let of_edges = OF_SAG * self.flat.sag().max(master.sag());
