@@ -65,22 +65,21 @@ impl Row {
     }
 
     /// The part of the row that supports do not hold along its normal: all of it if its node moves, and otherwise the weights of the
-    /// masters that do. `None`: it names no node that moves.
+    /// masters that do. `None`: it names no node that moves, of either side.
     pub(super) fn moving(&self, node: usize, settings: &SurfaceSettings) -> Option<f64> {
         let is_held = |node: usize| settings.is_supported(node, self.normal);
         if !is_held(node) {
             return Some(1.0);
         }
-        let is_named = |weight: f64| weight.abs() > ROUNDING * self.area;
-        let masters = self.weights.iter().filter(|(node, w)| node & MASTER != 0 && is_named(*w));
+        let named = self.weights.iter().filter(|(_, weight)| weight.abs() > ROUNDING * self.area);
         let (held, free): (Vec<Weight>, Vec<Weight>) =
-            masters.partition(|(node, _)| is_held(node & !MASTER));
-        let part = |free: Vec<Weight>| free.iter().map(|(_, weight)| weight / self.area).sum();
-        if held.is_empty() {
-            Some(1.0)
-        } else {
-            Some(free).filter(|free| !free.is_empty()).map(part)
+            named.partition(|(node, _)| is_held(node & !MASTER));
+        let is_master = |(node, _): &&Weight| node & MASTER != 0;
+        if !held.iter().any(|entry| is_master(&entry)) {
+            return Some(1.0);
         }
+        let part: f64 = free.iter().filter(is_master).map(|(_, weight)| weight / self.area).sum();
+        Some(part).filter(|_| !free.is_empty())
     }
 
     /// Adds master nodes.

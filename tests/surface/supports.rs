@@ -192,6 +192,31 @@ fn clamps_of_any_width_leave_no_row_between_supports() {
     }
 }
 
+/// Two plates on each other with one edge held and pulled apart, of faces with mid nodes that end there or not: no row of a held node is
+/// left that names nodes which move, of either side, so that nothing holds what is pulled apart.
+#[test]
+fn no_pair_of_a_held_node_names_nodes_that_move() {
+    let rng = &mut Rng::with_seed(11);
+    for (slave, master) in SHAPES.into_iter().flat_map(|s| SHAPES.map(|m| (s, m))) {
+        for width in [0.1, 0.2, 0.3, 0.4, 0.5] {
+            let own = Sheet::rectangle(slave, [5, 2], [[0.0, 1.0]; 2], (0.0, rng));
+            let opposite = Sheet::rectangle(master, [6, 3], [[0.0, 1.0]; 2], (0.0, rng));
+            let sheets = TwoSheets::new(3, own.turned(), opposite);
+            let is_held = |node: usize| sheets.nodes[node][0] <= width + 1e-9;
+            let held = (0..sheets.nodes.len()).filter(|node| is_held(*node));
+            let supports = held.flat_map(|node| (0..3).map(move |axis| (node, axis))).collect();
+            let found = sheets.pair(&SurfaceSettings { supports, ..Default::default() }).unwrap();
+            for pair in found.pairs.iter().filter(|pair| is_held(pair.slave)) {
+                let moves = |entry: &&(usize, f64)| !is_held(entry.0);
+                let slaves = pair.slaves().iter().filter(moves).count();
+                let masters = pair.masters().iter().filter(moves).count();
+                let rests = slaves + masters == 0 || masters == pair.masters().len();
+                assert!(rests, "{slave:?} on {master:?}, {width}: {pair:?}");
+            }
+        }
+    }
+}
+
 /// A strip that repeats along x, with the edge y = 0 of both sides held: the host's supports are those of the first boundary, as the
 /// second follows by equations. The pairs are those with supports on both.
 #[test]
