@@ -11,6 +11,7 @@ from ._text import tell
 
 AXES = "xyz"
 _ALONG = 1e-9  # what is left of a unit normal beside axes
+_OF_DIE = 0.3  # rows of an obstacle of finite elements are right if so much of them moves
 _NEAR = 1e-6  # of the size of the mesh: places are the same
 
 
@@ -66,15 +67,16 @@ def warn_of_supports(contact, fixed, name=None):
     for pair in pairs:
         normal, (dofs, weights) = contact.normals[pair], rows[pair]
         near = contact._dofs_of(np.array(sorted(around[contact.nodes[pair]])))
-        if along(normal, ~is_fixed[near]).all():
-            continue  # an obstacle of finite elements
         if dofs.ndim == 1:  # by degree of freedom: those along the normal
             parts = weights @ normal
             is_held = is_fixed[dofs]
             is_master = parts * (weights @ np.ones(contact.dim)) < 0
         else:
             parts, is_held, is_master = weights, along(normal, ~is_fixed[dofs]), weights < 0
-        if (is_held & is_master).any() and (parts[~is_held] != 0).any():
+        if not (is_held & is_master).any() or not (parts[~is_held] != 0).any():
+            continue
+        free = parts[is_master & ~is_held].sum() / parts[is_master].sum()
+        if free < _OF_DIE or not along(normal, ~is_fixed[near]).all():
             of = f"zone {name!r}: " if name else ""
             tell(f"{of}supports hold slave node {contact.nodes[pair]} along its normal, and the master beside it: all that is left of "
                  "this pair are masters beside the support, so that its force may be any number: give fixed to pair_surfaces, or pair "
