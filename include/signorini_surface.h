@@ -253,8 +253,9 @@ struct signorini_surface_settings {
      * ones alone; default 0. Give them with dual mortar where supports hold both sides in one
      * place: a slave node that they hold along its normal, over masters some of which they hold,
      * then has no pair, as at rims. Its force would be any number. It keeps its pair where all
-     * around it is held, as of a die, and three tenths of its masters move. Of a penetration
-     * there gaps have the part that moves.
+     * around it is held, as of a die, and three tenths of its masters move, and rests where they
+     * hold all of these. Of a penetration gaps have the part that moves; where nothing does, it is
+     * refused.
      */
     int64_t n_fixed;
     /** These degrees of freedom, numbered as for signorini_model_new_sparse. */

@@ -13,7 +13,7 @@ use super::digits::ON_PLANE;
 use super::face::Face;
 use super::mesh::Side;
 use super::pairs::{Fold, Weight};
-use super::row::Row;
+use super::row::{Moves, Row};
 use super::settings::{Rims, SurfaceSettings};
 use super::shape::MANY_FACES;
 use super::symmetry::OnPlanes;
@@ -115,8 +115,8 @@ pub(super) fn fold(
 
 /// What supports leave of rows.
 struct Moving {
-    /// The parts that move, of rows that do not wholly. `None`: nothing does, and the pair rests.
-    parts: HashMap<usize, Option<f64>>,
+    /// Those of which they do not leave all.
+    rows: HashMap<usize, Moves>,
     /// Nodes that are held, as are some of the masters of their rows, beside nodes that move: their rows would hold masters by the support
     /// beside these. Where all is held around, the slave is an obstacle, and such rows are right if enough of them moves.
     little: BTreeSet<usize>,
@@ -128,26 +128,32 @@ impl Moving {
         settings: &SurfaceSettings,
         slave: &Side<'_>,
     ) -> Result<Moving, Error> {
-        let parts = rows.iter().map(|(node, row)| (*node, row.moving(*node, settings)));
-        let parts: HashMap<usize, Option<f64>> =
-            parts.filter(|(_, part)| *part != Some(1.0)).collect();
-        let some = || parts.iter().filter_map(|(node, part)| Some((*node, (*part)?)));
-        let beside = beside((slave, &[]), some().map(|(node, _)| node), NEAR)?;
-        let moves_most = |part: &Option<f64>| part.is_some_and(|part| part >= LEAST_OF_MANY);
-        let is_most =
-            |node: &usize| rows.contains_key(node) && parts.get(node).is_none_or(moves_most);
-        let is_little = |&(node, part): &(usize, f64)| {
+        let moves = rows.iter().map(|(node, row)| (*node, row.moves(*node, settings)));
+        let held = moves.filter(|(_, moves)| *moves != Moves::Wholly).collect();
+        let mut moving = Moving { rows: held, little: BTreeSet::new() };
+        let some = moving.rows.keys().copied().filter(|node| !moving.rests(*node));
+        let beside = beside((slave, &[]), some.clone(), NEAR)?;
+        let is_most = |node: &usize| rows.contains_key(node) && moving.of(*node) >= LEAST_OF_MANY;
+        let is_little = |&node: &usize| {
             let moves = |other: &usize| !settings.is_supported(*other, rows[&node].normal);
-            let is_little = part < LEAST_OF_MANY || beside[&node].iter().any(moves);
+            let is_little = moving.of(node) < LEAST_OF_MANY || beside[&node].iter().any(moves);
             is_little && around(node, &beside, NEAR, is_most).iter().any(is_most)
         };
-        let little = some().filter(is_little).map(|(node, _)| node).collect();
-        Ok(Moving { parts, little })
+        moving.little = some.filter(is_little).collect();
+        Ok(moving)
     }
 
     /// The part of a row that moves.
     fn of(&self, node: usize) -> f64 {
-        self.parts.get(&node).map_or(1.0, |part| part.unwrap_or(0.0).clamp(0.0, 1.0))
+        match self.rows.get(&node) {
+            None | Some(Moves::Wholly) => 1.0,
+            Some(Moves::InPart(part)) => part.clamp(0.0, 1.0),
+            Some(Moves::Nothing) => 0.0,
+        }
+    }
+
+    fn rests(&self, node: usize) -> bool {
+        self.rows.get(&node) == Some(&Moves::Nothing)
     }
 
     /// True if a home may take in the row of a node.

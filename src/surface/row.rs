@@ -15,6 +15,16 @@ use crate::linalg::vector3::{Matrix3, Vector3};
 /// The bit of a node that is a master: it sorts masters behind all slaves.
 const MASTER: usize = 1 << (usize::BITS - 1);
 
+/// What supports leave of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Moves {
+    Wholly,
+    /// Supports hold its node and some of its masters. The weights of the others: none, if it names another slave node that moves.
+    InPart(f64),
+    /// It names no node that moves, and the pair rests.
+    Nothing,
+}
+
 /// `D_j` times the row of a node: `D_j û_j - Σ_k M_jk u_k`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Row {
@@ -64,22 +74,21 @@ impl Row {
         self.weights.iter().copied().filter(|(node, _)| node & MASTER == 0)
     }
 
-    /// The part of the row that supports do not hold along its normal: all of it if its node moves, and otherwise the weights of the
-    /// masters that do. `None`: it names no node that moves, of either side.
-    pub(super) fn moving(&self, node: usize, settings: &SurfaceSettings) -> Option<f64> {
+    /// What supports leave of the row along its normal: all of it if its node moves, or all of its masters do.
+    pub(super) fn moves(&self, node: usize, settings: &SurfaceSettings) -> Moves {
         let is_held = |node: usize| settings.is_supported(node, self.normal);
         if !is_held(node) {
-            return Some(1.0);
+            return Moves::Wholly;
         }
         let named = self.weights.iter().filter(|(_, weight)| weight.abs() > ROUNDING * self.area);
         let (held, free): (Vec<Weight>, Vec<Weight>) =
             named.partition(|(node, _)| is_held(node & !MASTER));
         let is_master = |(node, _): &&Weight| node & MASTER != 0;
         if !held.iter().any(|entry| is_master(&entry)) {
-            return Some(1.0);
+            return Moves::Wholly;
         }
-        let part: f64 = free.iter().filter(is_master).map(|(_, weight)| weight / self.area).sum();
-        Some(part).filter(|_| !free.is_empty())
+        let part = free.iter().filter(is_master).map(|(_, weight)| weight / self.area).sum();
+        if free.is_empty() { Moves::Nothing } else { Moves::InPart(part) }
     }
 
     /// Adds master nodes.

@@ -96,8 +96,11 @@ fn coefficients_of_rounding_move_nothing() {
         let rng = &mut Rng::with_seed(seed);
         let (dim, nodes, pairs) = (rng.usize(2..=3), rng.usize(6..=9), rng.usize(1..=4));
         let on_plane = rng.usize(1..=nodes - pairs);
-        let across =
-            |node: usize| (dim * node, vec![(dim * node + 1, small * uniform(rng, 0.5, 1.0))]);
+        // Another displacement of the node, or one of a node that no row names.
+        let across = |node: usize| {
+            let other = if rng.bool() { dim * node + 1 } else { dim * nodes };
+            (dim * node, vec![(other, small * uniform(rng, 0.5, 1.0))])
+        };
         let equations = (0..on_plane).map(across).collect();
         let mut row = || {
             let weights = vector(rng, nodes);
@@ -112,7 +115,7 @@ fn coefficients_of_rounding_move_nothing() {
             weights.into_iter().enumerate().flat_map(of_node).collect()
         };
         let rows = (0..pairs).map(|_| row()).collect();
-        let (stiffness, normals) = (springs(rng, dim * nodes), vector(rng, dim * pairs));
+        let (stiffness, normals) = (springs(rng, dim * nodes + 1), vector(rng, dim * pairs));
         let fixed = vec![];
         let structure =
             Constrained { dim, stiffness, fixed, equations, rows, normals, tangents: None };

@@ -92,7 +92,7 @@ def warn_of_gaps(contact, gap, name=None):
     pairs = np.array([place[home] for home in contact.folded[:, 1].tolist()])
     is_free = ~np.isin(contact._dofs_of(contact.folded[:, 0]), contact._fixed)
     pairs = pairs[np.linalg.norm(np.where(is_free, contact.normals[pairs], 0.0), axis=1) <= _ALONG]
-    least = np.minimum(contact._paired_gaps[pairs], 0.0)
+    least = np.minimum(contact._paired_gaps[pairs], -1e-12 * abs(contact.coordinates).max())
     if (gap[..., pairs] < least).any():
         worst = pairs[(gap[..., pairs] - least).reshape(-1, len(pairs)).min(axis=0).argmin()]
         tell((f"zone {name!r}: " if name else "") + f"gap at slave node {contact.nodes[worst]} is {gap[..., worst].min():.3g}, a penetration, "

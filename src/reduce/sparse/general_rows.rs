@@ -20,6 +20,7 @@ use crate::error::Error;
 use crate::linalg::row_elimination::{Expression, LEAST_PIVOT, Solved, Terms, solve};
 use crate::linalg::sparse_matrix::OutOfMemory;
 use crate::linalg::tolerances::SUSPICIOUS_PIVOT;
+use crate::linalg::vector::norm_inf;
 use crate::linalg::vector3::{self, Vector3, unit, without};
 use crate::problem::Dependence;
 use crate::reduce::equations::Dependents;
@@ -56,7 +57,8 @@ struct KeptRows<'r> {
     kept: usize,
 }
 
-/// Solves `rows` for degrees of freedom of the host, of which `places` are those among the fixed ones. Turns `frames` along what supports hold; about their normals at
+/// Solves `rows` for degrees of freedom of the host, of which `places` are those among the fixed ones, and which have a `stiffness` of
+/// their own. Turns `frames` along what supports hold; about their normals at
 /// will if they `may_turn`.
 ///
 /// # Errors
@@ -64,10 +66,10 @@ struct KeptRows<'r> {
 pub(super) fn general_rows(
     rows: &Rows,
     (frames, may_turn): (&mut [Frame], bool),
-    (places, dependents): (&[Option<usize>], &Dependents),
+    (places, stiffness, dependents): (&[Option<usize>], &[f64], &Dependents),
 ) -> Result<GeneralRows, Error> {
     let may_choose: Vec<bool> = places.iter().map(Option::is_none).collect();
-    let units = units(rows, places.len(), dependents);
+    let units = units(rows, stiffness, dependents);
     // Where no row depends on others, each has its own stiffness as long as that keeps half of its digits.
     let mut least = SUSPICIOUS_PIVOT.sqrt();
     loop {
@@ -89,13 +91,17 @@ pub(super) fn general_rows(
 
 /// The unit of each degree of freedom's coefficients: the largest of them where it is that of an angle, whose coefficients are
 /// arms. Small weights of a node in all rows are no unit of their own, and a small coefficient of a displacement in an equation is
-/// none beside its weights.
-fn units(rows: &Rows, count: usize, dependents: &Dependents) -> Vec<f64> {
+/// none beside its weights, and beside its `stiffness`, by which an angle has the square of an arm.
+fn units(rows: &Rows, stiffness: &[f64], dependents: &Dependents) -> Vec<f64> {
     // Coefficients of displacements are 1 at most; those this much larger or smaller are of another unit.
     let other = 1e4;
-    let mut largest = dependents.largest_coefficients(count);
+    let mut largest = dependents.largest_coefficients(stiffness.len());
     for &(k, a) in rows.equations.iter().flatten() {
         largest[k] = largest[k].max(a.abs());
+    }
+    let stiffest = norm_inf(stiffness).max(f64::MIN_POSITIVE);
+    for (largest, own) in largest.iter_mut().zip(stiffness) {
+        *largest = largest.max((own.abs() / stiffest).sqrt());
     }
     let is_of_length = |a: f64| (1.0 / other..=other).contains(&a);
     largest.into_iter().map(|a| if is_of_length(a) { 1.0 } else { a }).collect()

@@ -9,7 +9,7 @@ use super::host_matrix::check_diagonal;
 use super::messages;
 use super::supports::{self, FixedComponent};
 use crate::error::{Argument, Error, Limit, Message};
-use crate::linalg::sparse_matrix::{Csc, OutOfMemory, times, transpose_times};
+use crate::linalg::sparse_matrix::{Csc, OutOfMemory, diagonals, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, combination, norm_inf};
 use crate::linalg::watched::unended;
@@ -66,10 +66,11 @@ impl SparseReduction {
         let rows = pairs.rows(matrix.size, dependents)?;
         let may_lack = pairs.without_own_stiffness(dependents.without_own_stiffness(matrix.size));
         check_diagonal("K", &host, |dof| places[dof].is_some() || may_lack[dof])?;
+        let stiffness: Vec<f64> = diagonals(&host).collect();
         let mut frames = pairs.frames()?;
         let may_turn = pairs.tangents.is_none();
         let GeneralRows { variables, supports, dependent } =
-            general_rows(&rows, (&mut frames, may_turn), (places, dependents))?;
+            general_rows(&rows, (&mut frames, may_turn), (places, &stiffness, dependents))?;
         let own = dependent.is_none() && rows.have_own_slaves;
         (control.ask)(0.0, 0)?;
         let contact_forces = contact_forces(matrix.size, &rows, &frames).map_err(memory)?;
