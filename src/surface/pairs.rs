@@ -52,8 +52,6 @@ pub struct Fold {
     pub into: usize,
     /// The distance between them.
     pub distance: f64,
-    /// `true` if supports hold it, and masters of its row.
-    pub is_held: bool,
 }
 
 /// A report on the faces and nodes that have no pair of their own.

@@ -144,9 +144,7 @@ impl KeptSurfaces {
             homes.iter().map(|node| nodes.binary_search(node).is_ok()).collect()
         };
         let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
-        // Where supports hold both sides no pair keeps them apart.
-        let folded = pairs.report.folded.iter().filter(|fold| !fold.is_held);
-        let folded = marks(folded.map(|fold| fold.node).collect());
+        let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
         let [uncovered, in_part] = [&pairs.report.uncovered_faces, &pairs.report.held_in_part];
         let is_asked = |at: &usize| {
             let of_pairs = || places[start[*at]..start[at + 1]].iter().all(|&place| paired[place]);

@@ -108,7 +108,7 @@ pub(super) fn fold(
         }
         slave.progress.goes_on()?;
         let distance = (slave.position(into[0].0) - slave.position(node)).norm();
-        Ok(Fold { node, into: into[0].0, distance, is_held: moving.little.contains(&node) })
+        Ok(Fold { node, into: into[0].0, distance })
     };
     gone.into_iter().map(fold).collect()
 }
