@@ -1,34 +1,34 @@
 //! The stiffness of bodies and springs in series, `(W + e D⁻¹)⁻¹`.
 
-use super::rounds::InSeries;
-use crate::error::{Argument, Error};
+use super::rounds::{InSeries, RANGE, changed};
 use crate::linalg::factor::{Factor, cholesky_work};
 use crate::linalg::tolerances::SINGULAR;
-use crate::linalg::vector::opposite;
 use crate::monitor::{Stop, Watch};
 use crate::problem::{Flexibility, Relation};
-use crate::solve::result::Ending;
 
 /// Bodies of a flexibility, with the springs of some rounds.
 pub struct Springs<'p> {
-    pub relation: &'p Flexibility<'p>,
-    pub stiffness: Vec<f64>,
-    pub monitor: &'p dyn Watch,
+    relation: &'p Flexibility<'p>,
+    compliance: f64,
+    stiffness: Vec<f64>,
+    monitor: &'p dyn Watch,
+}
+
+impl<'p> Springs<'p> {
+    /// Springs of a compliance; `None` if `W` has negative eigenvalues. `Err`: there is no time for them.
+    pub fn new(
+        relation: &'p Flexibility<'p>,
+        compliance: f64,
+        monitor: &'p dyn Watch,
+    ) -> Result<Option<Self>, Stop> {
+        let stiffness = stiffness(relation, compliance, monitor)?;
+        Ok(stiffness.map(|stiffness| Springs { relation, compliance, stiffness, monitor }))
+    }
 }
 
 impl InSeries for Springs<'_> {
-    const HAVE_STIFFNESS: bool = false;
-
-    fn set(&mut self, compliance: f64) -> Result<(), Ending> {
-        let indefinite = || {
-            Error::invalid(
-                Argument::Matrix,
-                "W is not positive semi-definite: a force has negative flexibility",
-            )
-        };
-        let stiffness = stiffness(self.relation, compliance, self.monitor)?;
-        self.stiffness = stiffness.ok_or_else(indefinite)?;
-        Ok(())
+    fn compliance(&self) -> f64 {
+        self.compliance
     }
 
     fn displacements(&self, force: &[f64]) -> Vec<f64> {
@@ -40,7 +40,21 @@ impl InSeries for Springs<'_> {
     }
 
     fn load(&mut self, force: &[f64]) -> Vec<f64> {
-        opposite(force)
+        force.iter().map(|force| -force).collect()
+    }
+
+    fn change(&mut self, softer: bool) {
+        let compliance = changed(self.compliance, softer, RANGE[1]);
+        // Where there is no time for others these stay.
+        if compliance != self.compliance
+            && let Ok(Some(stiffness)) = stiffness(self.relation, compliance, self.monitor)
+        {
+            (self.compliance, self.stiffness) = (compliance, stiffness);
+        }
+    }
+
+    fn are_softest(&self) -> bool {
+        self.compliance >= RANGE[1]
     }
 }
 

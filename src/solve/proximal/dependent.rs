@@ -10,14 +10,16 @@
 //! With it the variables can be condensed, and the others solve for `d`, in [`super::rounds`]. What proves that the
 //! gaps contradict each other are normal forces `p >= 0` with `Cᵀ p = 0` and `sum p (gap - o) < 0`.
 
-use super::rounds::{InSeries, rounds};
+use super::rounds::{
+    COMPLIANCE, InSeries, changed, first_or_soft, rounds, solve as solve_by_rounds,
+};
 use super::step::{Means, ended};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::sparse_matrix::{OutOfMemory, column, from_entries, transposed};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::watched::unended;
-use crate::monitor::Watch;
+use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, DependentRows, NEARLY_DEPENDENT, Relation};
 use crate::solve::result::{Ending, Solution, Status};
 use crate::solve::rigid::{Balance, RigidMotions};
@@ -28,29 +30,47 @@ pub fn solve(
     means: Means<'_>,
     start: Option<&[f64]>,
 ) -> Result<Solution, Error> {
-    let (relation, monitor) = (problem.relation(), means.monitor);
+    let Means { settings, monitor, .. } = means;
+    let relation = problem.relation();
     // Those of the stiffness with springs, which is ten thousand times as large, would carry its rounding.
     let scaled = relation.free_motions(&mut monitor.asking());
     let known = scaled.as_deref().unwrap_or(&[]);
+    let first = match condensed((relation, known), COMPLIANCE, monitor)? {
+        Ok(condensed) => condensed,
+        Err(stop) => {
+            let d = relation.relative(&begun(relation, start));
+            let force = vec![0.0; d.len()];
+            let how = (settings.method, &Ending::Stopped(stop), 0);
+            return Ok(ended(&Contact::new(problem), (d, &force), settings, how));
+        }
+    };
     let motion =
         |v: &Vec<f64>| v.iter().zip(&relation.units).map(|(d, unit)| d / unit.sqrt()).collect();
     let free_motions: Option<Vec<Vec<f64>>> =
         scaled.as_ref().map(|scaled| scaled.iter().map(motion).collect());
-    let bodies = |start: Option<&[f64]>| {
+    let (all, with_start) = (&|pair| pair, (settings, start));
+    let (found, _) = solve_by_rounds(problem, all, with_start, |problem, settings, start| {
         let variables = begun(relation, start);
-        let bodies = Bodies {
+        let bodies = |softest: f64| Bodies {
             relation,
-            condensed: None,
+            first: &first,
+            compliance: COMPLIANCE,
+            softest,
+            changed: None,
             known,
             free_motions: free_motions.as_deref(),
             before: variables.clone(),
-            variables,
+            variables: variables.clone(),
             right: Vec::new(),
             monitor,
         };
-        (bodies, vec![0.0; relation.size()])
-    };
-    let (found, _) = rounds(problem, &|pair| pair, (means, start), bodies)?;
+        first_or_soft(problem, settings, |compliance, settings| {
+            let mut bodies = bodies(compliance);
+            bodies.set(compliance);
+            let force = vec![0.0; relation.size()];
+            rounds(problem, &mut bodies, force, Means { settings, ..means })
+        })
+    })?;
     match found.solution.status {
         Status::Stalled => {
             let found = found.solution;
@@ -86,8 +106,11 @@ fn at_rest(
 /// The bodies between the pairs, with springs.
 struct Bodies<'p> {
     relation: &'p DependentRows<'p>,
-    /// With the springs of the round.
-    condensed: Option<SparseSchur>,
+    first: &'p SparseSchur,
+    compliance: f64,
+    softest: f64,
+    /// With other springs than the first ones.
+    changed: Option<SparseSchur>,
     /// Those motions with each component times the root of its unit.
     known: &'p [Vec<f64>],
     free_motions: Option<&'p [Vec<f64>]>,
@@ -101,17 +124,27 @@ struct Bodies<'p> {
 
 impl Bodies<'_> {
     fn condensed(&self) -> &SparseSchur {
-        self.condensed.as_ref().expect("springs are set before a round")
+        self.changed.as_ref().unwrap_or(self.first)
+    }
+
+    /// Takes other springs. Those before are released first, and where there is no time for others the first ones come back.
+    fn set(&mut self, compliance: f64) {
+        if compliance == self.compliance {
+            return;
+        }
+        (self.compliance, self.changed) = (COMPLIANCE, None);
+        if compliance != COMPLIANCE
+            && let Ok(Ok(condensed)) =
+                condensed((self.relation, self.known), compliance, self.monitor)
+        {
+            (self.compliance, self.changed) = (compliance, Some(condensed));
+        }
     }
 }
 
 impl InSeries for Bodies<'_> {
-    const HAVE_STIFFNESS: bool = true;
-
-    fn set(&mut self, compliance: f64) -> Result<(), Ending> {
-        let condensed = condensed((self.relation, self.known), compliance, self.monitor)?;
-        self.condensed = Some(condensed);
-        Ok(())
+    fn compliance(&self) -> f64 {
+        self.compliance
     }
 
     fn displacements(&self, _: &[f64]) -> Vec<f64> {
@@ -138,17 +171,31 @@ impl InSeries for Bodies<'_> {
         self.variables.iter_mut().zip(&step).for_each(|(z, step)| *z += step);
     }
 
-    fn go_back(&mut self) {
-        self.variables.clone_from(&self.before);
+    /// Softer ones begin where the round did that less compliant ones have failed in.
+    fn change(&mut self, softer: bool) {
+        let compliance = changed(self.compliance, softer, self.softest);
+        if softer {
+            self.variables.clone_from(&self.before);
+        }
+        self.set(compliance);
+    }
+
+    fn are_softest(&self) -> bool {
+        self.compliance >= self.softest
+    }
+
+    fn are_solved_by_all_means(&self) -> bool {
+        true
     }
 }
 
-/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs.
+/// The stiffness of the variables and the springs, condensed on the displacements beyond the springs, or why that
+/// was stopped.
 fn condensed(
     (relation, known): (&DependentRows<'_>, &[Vec<f64>]),
     compliance: f64,
     monitor: &dyn Watch,
-) -> Result<SparseSchur, Ending> {
+) -> Result<Result<SparseSchur, Stop>, Error> {
     let memory = |_: OutOfMemory| Error::OutOfMemory("the stiffness of dependent rows");
     let (stiffness, dependence) = (relation.stiffness, relation.dependence);
     let (kept, size) = (dependence.variables(), relation.size());
@@ -178,17 +225,19 @@ fn condensed(
     };
     let made = Plan::new(&all, kept, None, watched)
         .and_then(|plan| SparseSchur::new(plan, all, Some(known), watched));
-    made.map_err(|failure| match (failure, stopped) {
-        (_, Some(stop)) => Ending::Stopped(stop),
-        (Failure::OutOfMemory, None) => Error::OutOfMemory("the factor of dependent rows").into(),
-        (_, None) => Error::invalid(
+    match (made, stopped) {
+        (Ok(made), _) => Ok(Ok(made)),
+        (Err(_), Some(stop)) => Ok(Err(stop)),
+        (Err(Failure::OutOfMemory), None) => {
+            Err(Error::OutOfMemory("the factor of dependent rows"))
+        }
+        (Err(_), None) => Err(Error::invalid(
             Argument::Matrix,
             format!(
                 "the stiffness of the bodies between dependent pairs cannot be told from rounding: {NEARLY_DEPENDENT}"
             ),
-        )
-        .into(),
-    })
+        )),
+    }
 }
 
 /// The variables of the displacements `start`, without forces.

@@ -21,9 +21,9 @@ use super::compliant::{Springs, is_definite, is_indefinite, stiffness};
 use super::drawn::drawn;
 use super::growth::sentence;
 use super::on_flexibility::{DEAR, LawPoint, OnFlexibility};
-use super::rounds::{RoundsFound, rounds};
+use super::rounds::{RoundsFound, first_or_soft, rounds, solve as solve_by_rounds};
 use super::step::{Means, ended, step};
-use crate::error::Error;
+use crate::error::{Argument, Error};
 use crate::law::{Contact, bounded, exceed_gaps};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::normalise;
@@ -50,12 +50,14 @@ pub fn solve(
     if let Some(found) = without_springs(contact, means, &force)? {
         return Ok(found);
     }
-    let (relation, monitor) = (problem.relation(), means.monitor);
-    let springs = |start: Option<&[f64]>| {
-        let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
-        (Springs { relation, stiffness: Vec::new(), monitor }, force)
-    };
-    let (found, proof) = rounds(problem, number, (means, start), springs)?;
+    let with_start = (settings, start);
+    let (found, proof) =
+        solve_by_rounds(problem, number, with_start, |problem, settings, start| {
+            let force = start.map_or_else(|| vec![0.0; problem.unknowns()], <[f64]>::to_vec);
+            first_or_soft(problem, settings, |compliance, settings| {
+                from_forces(problem, Means { settings, ..means }, (&force, compliance))
+            })
+        })?;
     let RoundsFound { mut solution, pattern } = found;
     if solution.status != Status::Stalled {
         return Ok(solution);
@@ -207,4 +209,29 @@ fn on_stiffness(
 /// True if Newton's method is chosen, or left to the default.
 pub fn takes_newton(settings: &Settings) -> bool {
     matches!(settings.method, Method::Auto | Method::Newton)
+}
+
+/// Rounds from contact forces `force`, with springs of a compliance at first.
+fn from_forces(
+    problem: &FlexibilityProblem<'_>,
+    means: Means<'_>,
+    (force, compliance): (&[f64], f64),
+) -> Result<RoundsFound, Error> {
+    let (relation, settings) = (problem.relation(), means.settings);
+    match Springs::new(relation, compliance, means.monitor) {
+        Ok(springs) => {
+            let mut springs = springs.ok_or_else(|| {
+                Error::invalid(
+                    Argument::Matrix,
+                    "W is not positive semi-definite: a force has negative flexibility",
+                )
+            })?;
+            rounds(problem, &mut springs, force.to_vec(), means)
+        }
+        Err(stop) => {
+            let (d, how) = (relation.relative(force), (settings.method, &Ending::Stopped(stop), 0));
+            let solution = ended(&Contact::new(problem), (d, force), settings, how);
+            Ok(RoundsFound { solution, pattern: None })
+        }
+    }
 }

@@ -20,25 +20,31 @@
 //! do work on the gaps.
 
 use super::growth::{ENOUGH, Growth, proof_in, sentence};
-use super::step::{Means, ended, measured, step};
+use super::step::{Means, measured, step};
 use crate::error::Error;
 use crate::law::{Contact, passes_gaps, without_friction};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::vector::norm_inf;
-use crate::problem::{ContactProblem, Redundant, Stiffness};
+use crate::problem::{ContactProblem, Redundant, Relation, Stiffness};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::AIM;
-use crate::solve::result::{Ending, Solution, Status};
+use crate::solve::result::{Solution, Status};
 
 /// Most rounds: patterns of forces with a flexibility of `e` itself halve their error in each.
 const ROUNDS: usize = 100;
 
 /// `e` of the first springs, beside flexibilities of size one. A round divides the error by the compliance of the least
 /// compliant pattern of forces over `e`; the stiffness with springs loses as many digits as `e` has.
-const COMPLIANCE: f64 = 1e-4;
+pub const COMPLIANCE: f64 = 1e-4;
 
 /// Least and largest `e`. The least leaves six digits of the stiffness with springs; with the largest they are as compliant as the bodies.
-const RANGE: [f64; 2] = [1e-10, 1.0];
+pub const RANGE: [f64; 2] = [1e-10, 1.0];
+
+/// The next `e`, softer up to `most` or less compliant.
+pub fn changed(compliance: f64, softer: bool, most: f64) -> f64 {
+    let by = if softer { 1.0 / SLOW } else { SLOW };
+    (by * compliance).clamp(RANGE[0], most)
+}
 
 /// Part of the error before a round that is enough for the round.
 const ROUGH: f64 = 1e-3;
@@ -52,15 +58,8 @@ const IDLE_ROUNDS: usize = 12;
 
 /// Bodies with springs in series with their pairs.
 pub trait InSeries {
-    /// True of bodies that have a stiffness: a round has all methods of the default with friction too, not Newton's alone,
-    /// and no springs are softer than the first ones.
-    const HAVE_STIFFNESS: bool;
-
-    /// Takes springs of a compliance `e`, beside flexibilities of size one.
-    ///
-    /// # Errors
-    /// There are none, or there is no time for them: those before stay.
-    fn set(&mut self, compliance: f64) -> Result<(), Ending>;
+    /// `e`, beside flexibilities of size one.
+    fn compliance(&self) -> f64;
 
     /// The displacements of the pairs where the springs are stretched to `force`.
     fn displacements(&self, force: &[f64]) -> Vec<f64>;
@@ -79,8 +78,16 @@ pub trait InSeries {
     /// Moves the bodies by the step of a round. Where the forces determine the displacements there is nothing to do.
     fn advance(&mut self, _: &[f64]) {}
 
-    /// Goes back to where the last round began.
-    fn go_back(&mut self) {}
+    /// More compliant springs if they are to be softer, otherwise less compliant ones, if there are any.
+    fn change(&mut self, softer: bool);
+
+    /// True if there are no softer ones, or none that a round is left to.
+    fn are_softest(&self) -> bool;
+
+    /// True if a round has all methods of the default with friction too, not Newton's alone.
+    fn are_solved_by_all_means(&self) -> bool {
+        self.are_softest()
+    }
 }
 
 /// The result of the rounds.
@@ -91,16 +98,20 @@ pub struct RoundsFound {
     pub pattern: Option<Vec<f64>>,
 }
 
-/// Solves a problem by rounds from a start, which `springs` take, with the forces of the first round. Where forces do not
-/// settle, looks for normal forces which prove that the gaps contradict each other, says in the message what was found, and
-/// returns the proof. `number` tells which pair of the host a pair is.
-pub fn rounds<R: Clone + Redundant, S: InSeries>(
-    problem: &ContactProblem<'_, R>,
+/// Solves a problem by `rounds` from a start. Where forces do not settle, looks for normal forces which prove that the gaps
+/// contradict each other, says in the message what was found, and returns the proof. `number` tells which pair of the
+/// host a pair is.
+pub fn solve<'p, R: Clone + Redundant>(
+    problem: &ContactProblem<'p, R>,
     number: &dyn Fn(usize) -> usize,
-    (means, start): (Means<'_>, Option<&[f64]>),
-    springs: impl Fn(Option<&[f64]>) -> (S, Vec<f64>),
+    (settings, start): (&Settings, Option<&[f64]>),
+    mut rounds: impl FnMut(
+        &ContactProblem<'p, R>,
+        &Settings,
+        Option<&[f64]>,
+    ) -> Result<RoundsFound, Error>,
 ) -> Result<(RoundsFound, Option<Vec<f64>>), Error> {
-    let mut found = first_or_soft(problem, means, || springs(start))?;
+    let mut found = rounds(problem, settings, start)?;
     if found.solution.status != Status::Stalled {
         return Ok((found, None));
     }
@@ -108,10 +119,8 @@ pub fn rounds<R: Clone + Redundant, S: InSeries>(
     let mut proved = found.pattern.clone().and_then(proof);
     if proved.is_none() {
         // With friction they may hide behind forces that wedge.
-        let settings = &Settings { method: Method::Auto, ..means.settings.clone() };
-        let means = Means { settings, ..means };
-        let smooth = first_or_soft(&without_friction(problem), means, || springs(None))?;
-        proved = smooth.pattern.and_then(proof);
+        let settings = Settings { method: Method::Auto, ..settings.clone() };
+        proved = rounds(&without_friction(problem), &settings, None)?.pattern.and_then(proof);
     }
     if let Some(pattern) = proved.as_deref().or(found.pattern.as_deref()) {
         found.solution.message = sentence(problem, pattern, proved.is_some(), number).into();
@@ -123,54 +132,39 @@ pub fn rounds<R: Clone + Redundant, S: InSeries>(
 /// has several solutions a method takes any of them, and rounds may follow one that wedges the bodies. In soft springs hardly any
 /// round has: between two planes that wedge a node no solution of 8,000 was missed then, and in the first springs alone 190 of 1,648. On
 /// singular `W` with friction up to 50 it is half of them.
-fn first_or_soft<R: Redundant, S: InSeries>(
+pub fn first_or_soft<R: Relation>(
     problem: &ContactProblem<'_, R>,
-    means: Means<'_>,
-    springs: impl Fn() -> (S, Vec<f64>),
+    settings: &Settings,
+    mut from: impl FnMut(f64, &Settings) -> Result<RoundsFound, Error>,
 ) -> Result<RoundsFound, Error> {
-    let settings = means.settings;
-    let found = with_springs(problem, springs(), (COMPLIANCE, means))?;
+    let found = from(COMPLIANCE, settings)?;
     let has_choice = settings.method == Method::Auto && !Contact::new(problem).is_frictionless();
     if found.solution.status != Status::Stalled || !has_choice {
         return Ok(found);
     }
-    let by_path = &Settings { method: Method::Path, ..settings.clone() };
-    let soft = (RANGE[1], Means { settings: by_path, ..means });
-    let again = with_springs(problem, springs(), soft)?;
+    let again = from(RANGE[1], &Settings { method: Method::Path, ..settings.clone() })?;
     let systems = found.solution.factorisations + again.solution.factorisations;
     let mut better = if again.solution.status == Status::Stalled { found } else { again };
     better.solution.factorisations = systems;
     Ok(better)
 }
 
-/// Rounds with springs of a compliance at first, from contact forces `force`, each solved by `means`.
-fn with_springs<R: Redundant, S: InSeries>(
+/// Rounds from contact forces `force`, each solved by `means`.
+pub fn rounds<R: Redundant>(
     problem: &ContactProblem<'_, R>,
-    (mut springs, force): (S, Vec<f64>),
-    (compliance, means): (f64, Means<'_>),
+    springs: &mut dyn InSeries,
+    force: Vec<f64>,
+    means: Means<'_>,
 ) -> Result<RoundsFound, Error> {
-    let contact = Contact::new(problem);
-    match springs.set(compliance) {
-        Ok(()) => {}
-        Err(Ending::Failed(error)) => return Err(error),
-        Err(ending) => {
-            let result = (springs.displacements(&force), &force[..]);
-            let how = (means.settings.method, &ending, 0);
-            let solution = ended(&contact, result, means.settings, how);
-            return Ok(RoundsFound { solution, pattern: None });
-        }
-    }
     let mut rounds = Rounds {
-        contact,
+        contact: Contact::new(problem),
         means,
+        last: springs.compliance(),
         springs,
-        compliance,
-        softest: if S::HAVE_STIFFNESS { compliance } else { RANGE[1] },
         force,
         changes: [f64::INFINITY; 2],
         growth: Growth::default(),
         best: None,
-        last: compliance,
         least: f64::INFINITY,
         deep: false,
         lowered: false,
@@ -187,13 +181,10 @@ fn with_springs<R: Redundant, S: InSeries>(
 }
 
 /// The iteration.
-struct Rounds<'p, R: Redundant, S: InSeries> {
+struct Rounds<'p, 's, R: Redundant> {
     contact: Contact<'p, R>,
-    means: Means<'p>,
-    springs: S,
-    /// `e` of the springs, and of the softest ones.
-    compliance: f64,
-    softest: f64,
+    means: Means<'s>,
+    springs: &'s mut dyn InSeries,
     /// Contact forces of the round before.
     force: Vec<f64>,
     /// The largest changes of a force by the last two rounds.
@@ -213,7 +204,7 @@ struct Rounds<'p, R: Redundant, S: InSeries> {
     solved: usize,
 }
 
-impl<R: Redundant, S: InSeries> Rounds<'_, R, S> {
+impl<R: Redundant> Rounds<'_, '_, R> {
     /// Makes a round. Returns `true` if it is the last one.
     fn ends_with_next(&mut self) -> Result<bool, Error> {
         let rough = self.tolerance();
@@ -229,17 +220,17 @@ impl<R: Redundant, S: InSeries> Rounds<'_, R, S> {
         let result = (self.springs.displacements(&force), &force[..]);
         let found = measured(&self.contact, (round, rough), result, self.means.settings);
         let eta = found.certificate.eta;
-        let softest = self.are_softest();
+        let softest = self.springs.are_softest();
         if failed && eta >= if softest { self.last } else { SLOW * self.last } {
             match softest {
                 true => _ = self.keep(found, false, false),
-                false => self.change(true),
+                false => self.springs.change(true),
             }
             return Ok(softest);
         }
         let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
         self.changes = [self.changes[1], norm_inf(&change)];
-        self.growth.add(change.iter().map(|change| self.compliance * change).collect());
+        self.growth.add(change.iter().map(|change| self.springs.compliance() * change).collect());
         self.force = force;
         let deep = self.is_deep(&found);
         let halves = 2.0 * eta < self.least;
@@ -255,38 +246,20 @@ impl<R: Redundant, S: InSeries> Rounds<'_, R, S> {
             self.lowered && found.status == Status::Solved && self.changes[1] >= self.changes[0];
         let allowed = self.means.settings.tolerance * norm_inf(&self.force);
         let settled = !deep && (is_rounding || settles(self.changes, allowed));
-        let before = self.compliance;
+        let before = self.springs.compliance();
         if !failed && is_slow && !settled {
-            self.change(false);
+            self.springs.change(false);
         }
-        self.lowered = self.compliance < before;
+        self.lowered = self.springs.compliance() < before;
         self.last = eta;
         let ends = self.keep(found, halves, settled);
         Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
     }
 
-    /// True if there are no softer springs, or none that a round is left to.
-    fn are_softest(&self) -> bool {
-        self.compliance >= self.softest
-    }
-
-    /// Takes more compliant springs if they are to be softer, which begin where the round did that these have failed in;
-    /// otherwise less compliant ones. Where there are none, or no time for them, these stay.
-    fn change(&mut self, softer: bool) {
-        let by = if softer { 1.0 / SLOW } else { SLOW };
-        let compliance = (by * self.compliance).clamp(RANGE[0], self.softest);
-        if softer {
-            self.springs.go_back();
-        }
-        if compliance != self.compliance && self.springs.set(compliance).is_ok() {
-            self.compliance = compliance;
-        }
-    }
-
     /// The tolerance of the next round. The springs leave the first rounds fewer digits than the problem asks for, and later
     /// ones mend it. Gaps may ask for more than `eta` does.
     fn tolerance(&self) -> f64 {
-        let rough = ROUGH * self.last.min(self.compliance);
+        let rough = ROUGH * self.last.min(self.springs.compliance());
         let enough = if self.deep { 0.0 } else { AIM * self.means.settings.tolerance };
         rough.max(enough).max(SMALLEST_TOLERANCE)
     }
@@ -301,8 +274,7 @@ impl<R: Redundant, S: InSeries> Rounds<'_, R, S> {
 
     /// Solves the problem with springs. Hard ones are left to softer springs at first, as far as there are any.
     fn round(&mut self, tolerance: f64) -> Result<Solution, Error> {
-        let by_all_means =
-            S::HAVE_STIFFNESS || self.are_softest() || self.contact.is_frictionless();
+        let by_all_means = self.springs.are_solved_by_all_means() || self.contact.is_frictionless();
         let method = match self.means.settings.method {
             Method::Auto if !by_all_means => Method::Newton,
             method => method,
