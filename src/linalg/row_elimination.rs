@@ -106,8 +106,9 @@ impl<'c> Elimination<'c> {
         while let Some(i) = waiting.pop() {
             let (least, largest) = (self.least * self.scale[i], self.largest_choice(i));
             let own = self.choices(i).filter(|(k, a)| {
-                // An unknown that is an equation's own once others are taken out is given by others in turn: in chains coefficients grow like a
-                // power. Rows of 50 masters under 20 nodes that are held lose all digits unless two links enlarge as one pivot may.
+                // An unknown that is an equation's own once others are taken out is given by others in turn: in chains
+                // coefficients grow like a power. Rows of 50 masters under 20 nodes that are held lose all digits unless two
+                // links enlarge as one pivot may.
                 let is_own = self.having[*k].len() == 1;
                 let part = if is_own { LEAST_PIVOT } else { LEAST_PIVOT.sqrt() };
                 counts[*k] == 1 && a.abs() >= least.max(part * largest)

@@ -58,8 +58,8 @@ impl Plane {
     }
 }
 
-/// Where a mid node stands off its straight edge by more than this share of it, the outline goes by it. Without it a
-/// strip of two thirds of this counts for the neighbour, with it of a quarter of that.
+/// Where a mid node stands off its straight edge by more than this share of it, the outline follows the edge. Where it does not, a
+/// strip of two thirds of this counts for the neighbour.
 pub(super) const MOST_SAG: f64 = 5e-4;
 
 /// Most pairs of straight lines in the place of a curved edge: beyond, the other face is a sliver.

@@ -19,6 +19,16 @@ fn lines(
     pair(2, &[own, opposite].concat(), [&slave, &master], &settings).unwrap()
 }
 
+/// A uniform pressure loads the nodes of both lines by the integrals of their functions, up to sums of some ten products of weights
+/// up to 3.
+fn check_loads(found: &SurfacePairs, [x, y]: [&[f64]; 2], quadratic: bool, context: &str) {
+    let [own, opposite] = [x, y].map(|x| exact_loads(x, quadratic, [0.0, 1.0]));
+    let forces = nodal_forces(found, own.len() + opposite.len(), 1.0);
+    for (force, load) in forces.iter().zip(own.iter().chain(&opposite)) {
+        assert!((force[1].abs() - load).abs() < 1e-13, "{context}: {forces:?}");
+    }
+}
+
 /// The nodes of the pairs.
 fn nodes(found: &SurfacePairs) -> Vec<usize> {
     found.pairs.iter().map(|pair| pair.slave).collect()
@@ -51,12 +61,7 @@ fn a_node_between_supports_has_no_pair_and_uniform_pressure_passes() {
             if !is_held {
                 assert_eq!(found.pairs, free.pairs, "{context}");
             }
-            let forces = nodal_forces(&found, first + line(&y, quadratic, 0).0.len(), 1.0);
-            let [own, opposite] = [&x, &y].map(|x| exact_loads(x, quadratic, [0.0, 1.0]));
-            for (force, load) in forces.iter().zip(own.iter().chain(&opposite)) {
-                // Sums of some ten products of weights up to 3.
-                assert!((force[1].abs() - load).abs() < 1e-13, "{context}: {forces:?}");
-            }
+            check_loads(&found, [&x, &y], quadratic, &context);
         }
     }
 }
@@ -70,7 +75,7 @@ fn a_side_that_supports_hold_wholly_keeps_its_pairs() {
     for round in 0..100 {
         let quadratic = round % 2 == 1;
         let [x, y] = [1, 3].map(|least| grid(0.0, 1.0, rng.usize(least..9), rng));
-        let (first, all) = (line(&x, quadratic, 0).0.len(), line(&y, quadratic, 0).0.len());
+        let first = line(&x, quadratic, 0).0.len();
         let ends = [first, first + y.len() - 1];
         let held = (0..first).chain(ends);
         let supports: Vec<(usize, usize)> = held.flat_map(|node| [(node, 0), (node, 1)]).collect();
@@ -86,11 +91,7 @@ fn a_side_that_supports_hold_wholly_keeps_its_pairs() {
         if expected.len() == free.pairs.len() {
             assert_eq!(free.pairs, found.pairs, "{round}");
         }
-        let forces = nodal_forces(&found, first + all, 1.0);
-        let [own, opposite] = [&x, &y].map(|x| exact_loads(x, quadratic, [0.0, 1.0]));
-        for (force, load) in forces.iter().zip(own.iter().chain(&opposite)) {
-            assert!((force[1].abs() - load).abs() < 1e-13, "{round}: {forces:?}");
-        }
+        check_loads(&found, [&x, &y], quadratic, &round.to_string());
     }
 }
 
@@ -162,7 +163,7 @@ fn clamps_of_any_width_leave_no_row_between_supports() {
         own.iter_mut().for_each(|x| x[1] += apart);
         let (opposite, mut master) = line(&y, quadratic, own.len());
         master.iter_mut().for_each(|face| face.swap(0, 1));
-        let (first, all) = (own.len(), [own, opposite].concat());
+        let all = [own, opposite].concat();
         let is_held = |node: usize| all[node][0] <= 0.4;
         let held = (0..all.len()).filter(|node| is_held(*node));
         let supports = held.flat_map(|node| [(node, 0), (node, 1)]).collect();
@@ -183,12 +184,7 @@ fn clamps_of_any_width_leave_no_row_between_supports() {
             let gap = pair.gap;
             assert!(apart - 1e-14 < gap && gap < most + 1e-14, "{context}: {pair:?}");
         }
-        let forces = nodal_forces(&found, all.len(), 1.0);
-        let [own, opposite] = [&x, &y].map(|x| exact_loads(x, quadratic, [0.0, 1.0]));
-        assert_eq!(first, own.len());
-        for (force, load) in forces.iter().zip(own.iter().chain(&opposite)) {
-            assert!((force[1].abs() - load).abs() < 1e-13, "{context}: {forces:?}");
-        }
+        check_loads(&found, [&x, &y], quadratic, &context);
     }
 }
 
