@@ -102,6 +102,61 @@ fn stiffness_within_a_rigid_body_is_none() {
     }
 }
 
+/// A rigid body of twelve nodes with springs between all of them stands with three on nodes that have springs of 2 along each axis. Its
+/// own springs change nothing, whichever side is the slave: the springs under it carry its load as those of a rigid body do, by
+/// three equations, and nothing slips.
+#[test]
+fn stiffness_within_a_rigid_body_on_elastic_nodes_is_none() {
+    let (bodies, turn, size) = (12, 30, 33);
+    for seed in 0..100 {
+        let rng = &mut Rng::with_seed(seed);
+        let mut places: Vec<[f64; 2]> =
+            (0..bodies).map(|_| [uniform(rng, -1.0, 1.0), uniform(rng, 0.0, 1.0)]).collect();
+        (0..3).for_each(|k| places[k][0] = k as f64 - 1.0);
+        let mut stiffness = vec![0.0; size * size];
+        let k = 10_f64.powi(rng.i32(-1..=6));
+        for (a, b) in (0..bodies).flat_map(|b| (0..b).map(move |a| (a, b))) {
+            let mut v = vec![0.0; size];
+            for c in 0..2 {
+                (v[2 * a + c], v[2 * b + c]) =
+                    (places[a][c] - places[b][c], places[b][c] - places[a][c]);
+            }
+            add_spring(&mut stiffness, k * uniform(rng, 0.1, 1.0), &v);
+        }
+        (2 * bodies..turn).for_each(|i| stiffness[i + size * i] = 2.0);
+        let signs = if seed % 2 == 0 { [1.0, -1.0] } else { [-1.0, 1.0] };
+        let side =
+            |node: usize, sign: f64| [(2 * node, vec![sign, 0.0]), (2 * node + 1, vec![0.0, sign])];
+        let pair = |k: usize| [side(k, signs[0]), side(bodies + k, signs[1])].concat();
+        let structure = Constrained {
+            dim: 2,
+            stiffness,
+            fixed: vec![],
+            equations: (0..bodies).flat_map(|k| rigid(k, places[k], turn)).collect(),
+            rows: (0..3).map(pair).collect(),
+            normals: [0.0, -signs[0]].repeat(3),
+            tangents: None,
+        };
+        let mut load = vec![0.0; size];
+        let [x, y, moment] = [uniform(rng, -0.2, 0.2), -3.0, uniform(rng, -0.5, 0.5)];
+        load[turn..].copy_from_slice(&[x, y, moment]);
+        let model = structure.whole(&Settings::default());
+        let found = solved(&model, &load, &[0.0; 3], 10.0).certificate.force;
+        // The springs under the body: 2 sum (U + turn x r), and their moments.
+        let mut whole = nalgebra::Matrix3::zeros();
+        let motions = places[..3].iter().flat_map(|[x, y]| [[1.0, 0.0, -y], [0.0, 1.0, *x]]);
+        let motions: Vec<nalgebra::Vector3<f64>> = motions.map(Into::into).collect();
+        motions.iter().for_each(|v| whole += 2.0 * v * v.transpose());
+        let moved = whole.try_inverse().unwrap() * nalgebra::Vector3::new(x, y, moment);
+        let pressed: Vec<f64> =
+            motions[1..].iter().step_by(2).map(|v| 2.0 * v.dot(&moved)).collect();
+        assert!(pressed.iter().all(|push| *push < -0.1), "seed {seed}: {pressed:?}");
+        let normal: Vec<f64> = found.chunks(2).map(|force| force[0]).collect();
+        // The stiffness is known to 1e-16 of 1e6 springs of 1e0.
+        close(&normal, &pressed, 1e-7, &format!("seed {seed}"));
+    }
+}
+
 /// A rigid body of no stiffness on a rigid plane: forces of its nodes balance the load if this does not slide, `|T| <= mu N`, and
 /// acts within the base, where it has fallen by the gap; otherwise no equilibrium exists. Its nodes have rows in the matrix that are
 /// empty, or none, and lengths have any unit. Loads nearer than a thousandth to a limit are left out.

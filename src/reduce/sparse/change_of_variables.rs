@@ -25,6 +25,8 @@ use crate::reduce::pairs::Rows;
 pub(super) struct ChangeOfVariables {
     /// `W`: a row for each degree of freedom of the host, then one for each spring.
     matrix: Csc,
+    /// The part of it that equations make: it gives dependents from all others.
+    equations: Option<Csc>,
     /// Number of the host's degrees of freedom.
     pub(super) host_size: usize,
     springs: usize,
@@ -72,21 +74,27 @@ impl ChangeOfVariables {
         entries.retain(|(_, _, value)| *value != 0.0);
         let (rows, fixed) = (host_size + springs, places.iter().flatten().count());
         let mut matrix = from_entries((rows, unknowns + fixed), entries.into_iter())?;
+        let mut equations = None;
         if !dependents.is_empty() {
-            matrix =
-                product_without_rounding(&with_dependents(rows, host_size, dependents)?, &matrix)?;
+            let dependents = equations.insert(with_dependents(rows, host_size, dependents)?);
+            matrix = product_without_rounding(dependents, &matrix)?;
         }
-        Ok(ChangeOfVariables { matrix, host_size, springs, unknowns, free })
+        Ok(ChangeOfVariables { matrix, equations, host_size, springs, unknowns, free })
     }
 
-    /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`.
+    /// The lower triangle of `Tᵀ K T`, and `Pᵀ K T`, from the lower triangle of `K`. Dependents leave `K` first: there a rigid body has
+    /// no stiffness of its own but for rounding, which rows of pairs would mix with the stiffness of others.
     pub(super) fn transform(
         &self,
         host: Csc,
         progress: &mut FactorProgress<'_>,
     ) -> Result<(Csc, Csc), Failure> {
-        let host = with_springs(host, self.springs);
+        let mut host = with_springs(host, self.springs);
         let goes_on = &mut || progress(0.0).is_ok();
+        if let Some(equations) = &self.equations {
+            let all = equations.ncols();
+            (host, _) = congruence(host, equations, all, goes_on)?.ok_or(Failure::Stopped)?;
+        }
         congruence(host, &self.matrix, self.unknowns, goes_on)?.ok_or(Failure::Stopped)
     }
 
