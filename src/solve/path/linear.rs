@@ -90,7 +90,7 @@ use super::linear_walk::{LOST, Walk};
 use crate::counters::count;
 use crate::law::references;
 use crate::linalg::vector::opposite;
-use crate::solve::newton::{from_pieces, solve_part};
+use crate::solve::newton::{from_pieces, refine_to_tolerance, solve_part};
 use crate::solve::pieces::Equations;
 use crate::solve::result::{Call, Candidate, Effort, Ending};
 use crate::solve::rigid;
@@ -158,7 +158,12 @@ fn solve(call: &Call<'_>, attempts: &[Attempt]) -> Candidate {
 fn ended(call: &Call<'_>, walk: &Walk<'_>, end: Result<(), Ending>) -> Candidate {
     let d = walk.displacements();
     let ending = match end {
-        Ok(()) => return from_pieces(&call.from(&d), &walk.pieces),
+        Ok(()) => {
+            let mut candidate = from_pieces(&call.from(&d), &walk.pieces);
+            // Other walks arrive at the same pieces, with the same rounding.
+            refine_to_tolerance(call, &mut candidate);
+            return candidate;
+        }
         // If the body only lifts off, the ray itself is the proof; if it also slips, the balance of
         // the other pairs decides.
         Err(Ending::Recession(motion)) => {
