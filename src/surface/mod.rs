@@ -66,6 +66,7 @@ mod sweep;
 mod symmetry;
 mod tree;
 mod true_shape;
+mod turns;
 mod unit;
 mod with_images;
 mod zones;

@@ -10,6 +10,7 @@ use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::surfaces::{Faces, Master, Surfaces};
 use super::symmetry::OnPlanes;
 use super::tree::Tree;
+use super::turns::keep_turns;
 use super::unit::Unit;
 use super::with_images::WithImages;
 use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
@@ -142,7 +143,7 @@ fn search(
     };
     facets::stand_off(sides, settings, &mut found)?;
     if settings.keep_turns {
-        found.pairs.iter_mut().for_each(|pair| pair.keep_turns(sides));
+        keep_turns(&mut found.pairs, sides)?;
     }
     Ok(found)
 }

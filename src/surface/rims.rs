@@ -272,9 +272,9 @@ fn around(
     found
 }
 
-/// The nodes beside some nodes, beside these, and so on, by all slave faces but some: of each the other nodes of its faces.
-fn beside(
-    (slave, without): (&Side<'_>, &[usize]),
+/// The nodes beside some nodes, beside these, and so on, by all faces of a side but some: of each the other nodes of its faces.
+pub(super) fn beside(
+    (side, without): (&Side<'_>, &[usize]),
     nodes: impl Iterator<Item = usize>,
     layers: usize,
 ) -> Result<HashMap<usize, BTreeSet<usize>>, Error> {
@@ -286,7 +286,7 @@ fn beside(
         }
         let mut around: HashMap<usize, BTreeSet<usize>> =
             next.into_iter().map(|node| (node, BTreeSet::new())).collect();
-        for face in slave.each_face() {
+        for face in side.each_face() {
             let (at, Face { nodes, .. }) = face?;
             if without.binary_search(&at).is_ok() {
                 continue;

@@ -80,13 +80,35 @@ fn rigid_motions_move_no_row() {
     }
 }
 
+/// Sides whose nodes are opposite each other, or twice as many on the slave: their rows have one master or masters on a line, which
+/// tell no turn about it. Faces of all kinds, flat and in a bowl.
+#[test]
+fn rigid_motions_move_no_row_of_one_master() {
+    let mut rng = Rng::with_seed(55);
+    for shape in SHAPES {
+        for (bend, own, opposite) in
+            [(0.0, [4; 2], [4; 2]), (0.1, [4; 2], [4; 2]), (0.1, [4, 8], [4; 2])]
+        {
+            let bowl = |[x, y, z]: [f64; 3]| [x, y, z + bend * (2.0 * x + 0.3).sin()];
+            let sheet =
+                |cells| Sheet::rectangle(shape, cells, [[0.0, 2.0]; 2], (0.0, &mut Rng::new()));
+            let master = sheet(opposite).mapped(|[x, y, z]| bowl([x, y, z - 0.05]));
+            let both = TwoSheets::new(3, sheet(own).turned().mapped(bowl), master);
+            let found = both.pair(&keeping(Pairing::DualMortar)).unwrap();
+            let moved = most_moved(&found, &both.nodes, rigid(3, &mut rng));
+            assert!(moved < 1e-13, "{shape:?}, {bend}, {own:?}: {moved:e}");
+        }
+    }
+}
+
 /// In the plane, where masters are on a line.
 #[test]
 fn rigid_motions_move_no_row_in_the_plane() {
     let mut rng = Rng::with_seed(52);
-    for quadratic in [[false, false], [true, false], [false, true], [true, true]] {
+    let kinds = [[false, false], [true, false], [false, true], [true, true]];
+    for (quadratic, masters) in kinds.into_iter().flat_map(|kind| [(kind, 5), (kind, 7)]) {
         let (mut nodes, slave) = line(&steps(0.0, 2.0, 7), quadratic[0], 0);
-        let (below, mut master) = line(&steps(0.0, 2.0, 5), quadratic[1], nodes.len());
+        let (below, mut master) = line(&steps(0.0, 2.0, masters), quadratic[1], nodes.len());
         master.iter_mut().for_each(|face| face.swap(0, 1));
         nodes.extend(below.iter().map(|[x, y, z]| [*x, y - 0.05, *z]));
         nodes.iter_mut().for_each(|p| p[1] += 0.2 * p[0].powi(2));
