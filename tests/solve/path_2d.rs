@@ -1,6 +1,7 @@
 //! The linear path in the plane, alone and behind the default: every positive definite problem has a
 //! solution, and the path leads to one whatever the coefficients, loads, gaps and slips.
 
+use crate::common::beam::beam;
 use crate::common::measures::{eta, rounding};
 use crate::common::plane_families::{SUPPORTS, Structure, Support};
 use crate::common::problems::{
@@ -53,6 +54,24 @@ fn the_path_alone_solves_random_dense_problems() {
             }
         }
     }
+}
+
+/// A thick beam on a floor, clamped at both ends, its pairs pushed at random: Newton's method and short walks end nowhere, and the path
+/// from a start that no other shares its loads with arrives, as theorem H says, after tens of events for each pair.
+#[test]
+fn long_paths_arrive() {
+    let (pairs, mut most) = (80, 0);
+    for seed in 0..12 {
+        let mut rng = Rng::with_seed(seed);
+        let f = vector(&mut rng, 2 * pairs).iter().map(|push| push + 0.3).collect();
+        let (gap, law) = (vec![0.0; pairs], Law::Coulomb(vec![3.0; pairs]));
+        let case = Case { dim: 2, pairs, k: beam(pairs, 0.2), f, gap, law, slip: None };
+        let context = format!("seed {seed}");
+        most = most.max(assert_solved(&case, Method::Path, &context));
+        assert_solved(&case, Method::Auto, &context);
+    }
+    // With as many events for each pair as of other bodies nothing would be shown.
+    assert!(most > 20 * pairs as u64, "{most}");
 }
 
 /// Cohesion and tension shift forces and bounds; the theorems hold as they are.

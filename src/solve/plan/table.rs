@@ -220,14 +220,8 @@ const LEMKE: MethodRow = MethodRow {
             "settings: Lemke's method is for frictionless contact, and for friction in 2D";
         unsymmetric(contact).or_else(|| (!fits).then(|| message.to_owned()))
     },
-    run: |call| {
-        for_a_while(call, LATER_PIVOTS * call.contact.pairs().len() as u64, |call| lcp::lemke(call))
-    },
+    run: |call| lcp::lemke(call).map(Some),
 };
-
-/// Pivots for each pair that Lemke's method may take in a plan. On beams with 200 and 400 pairs, each pushed at random, those that
-/// arrive take 99 at most, and others go on without end where the path arrives.
-const LATER_PIVOTS: u64 = 200;
 
 const NESTED_SWEEPS: MethodRow = MethodRow {
     method: Method::SorNested,
@@ -236,7 +230,7 @@ const NESTED_SWEEPS: MethodRow = MethodRow {
     refuses: unsymmetric,
     run: |call| {
         if call.contact.is_coupled() {
-            return for_a_while(call, LATER_SWEEPS, |call| Ok(sweeps::nested(call)));
+            return for_a_while(call, || sweeps::nested(call));
         }
         single_sweeps(call)
     },
@@ -261,9 +255,9 @@ const DIAGONAL_SWEEPS: MethodRow = MethodRow {
 
 /// Sweeps that update thresholds as they go, or have given ones.
 fn single_sweeps(call: &Call<'_>) -> Result<Option<Candidate>, Error> {
-    for_a_while(call, LATER_SWEEPS, |call| match call.contact.is_frictionless() {
-        true => Ok(sweeps::frictionless(call)),
-        false => Ok(sweeps::single(call)),
+    for_a_while(call, || match call.contact.is_frictionless() {
+        true => sweeps::frictionless(call),
+        false => sweeps::single(call),
     })
 }
 
@@ -271,17 +265,15 @@ fn single_sweeps(call: &Call<'_>) -> Result<Option<Candidate>, Error> {
 /// are chosen; more is not worth the wait.
 const LATER_SWEEPS: u64 = 5000;
 
-/// Runs a method; in a plan only for so many iterations.
+/// Runs sweeps; in a plan only for a while.
 fn for_a_while(
     call: &Call<'_>,
-    most: u64,
-    method: impl FnOnce(&Call<'_>) -> Result<Candidate, Error>,
+    sweeps: impl FnOnce() -> Candidate,
 ) -> Result<Option<Candidate>, Error> {
     if call.is_chosen() {
-        return method(call).map(Some);
+        return Ok(Some(sweeps()));
     }
-    let (candidate, used_up) = call.monitor.within(most, || method(call));
-    let mut candidate = candidate?;
+    let (mut candidate, used_up) = call.monitor.within(LATER_SWEEPS, sweeps);
     if candidate.ending == Ending::Stopped(Stop::IterationLimit) && !used_up {
         candidate.ending = Ending::Stalled("no method converges");
     }
