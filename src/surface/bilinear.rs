@@ -4,7 +4,7 @@
 
 use super::clip::Point;
 use super::face::Face;
-use super::shape::{FaceKind, Local};
+use super::shape::{Block, FaceKind, Local, each};
 use crate::linalg::tolerances::FEW_OPERATIONS;
 use crate::linalg::vector3::Vector3;
 
@@ -61,24 +61,49 @@ impl Bilinear {
     /// middle, `1 + b s + a t`. Its positive root is the one of the sheet that the middle is on. Both sums below are
     /// then `2 (1 + b s)` or `2 (1 + a t)`, positive in a convex face: nothing cancels, whatever the bend.
     pub(super) fn local(&self, p: Point) -> Option<Local> {
-        let from = [p[0] - self.x[0][0], p[1] - self.x[1][0]];
-        let [[a, b], [c, d]] = self.inverse;
-        let (s, t) = (a * from[0] + b * from[1], c * from[0] + d * from[1]);
-        if self.bend == [0.0; 2] {
-            return (s.is_finite() && t.is_finite()).then_some([s, t]);
+        let at = self.on_parallelogram(p);
+        let at = if self.bend == [0.0; 2] { at } else { self.bent(at) };
+        (at[0].is_finite() && at[1].is_finite()).then_some(at)
+    }
+
+    /// [`Bilinear::local`] of all points of a block, in their places.
+    #[inline(always)]
+    pub(super) fn locals(&self, p: &mut [Block; 2], count: usize) -> Option<()> {
+        for k in each(count) {
+            [p[0][k], p[1][k]] = self.on_parallelogram([p[0][k], p[1][k]]);
         }
+        if self.bend != [0.0; 2] {
+            for k in each(count) {
+                [p[0][k], p[1][k]] = self.bent([p[0][k], p[1][k]]);
+            }
+        }
+        let mut are_finite = true;
+        for k in each(count) {
+            are_finite &= p[0][k].is_finite() & p[1][k].is_finite();
+        }
+        are_finite.then_some(())
+    }
+
+    #[inline(always)]
+    fn on_parallelogram(&self, p: Point) -> Local {
+        let from = [p[0] - self.x[0][0], p[1] - self.x[1][0]];
+        self.inverse.map(|row| row[0] * from[0] + row[1] * from[1])
+    }
+
+    /// Local coordinates from those that a parallelogram would give.
+    #[inline(always)]
+    fn bent(&self, [s, t]: Local) -> Local {
         let (along, across) = (self.bend[0] * t, self.bend[1] * s);
         let skew = across - along;
         let square = (1.0 + skew) * (1.0 + skew) + 4.0 * along;
         // At a corner that is straight it is zero but for rounding.
         let least = -2.0 * FEW_OPERATIONS * (1.0 + skew * skew);
         let jacobian = if square < 0.0 && square >= least { 0.0 } else { square.sqrt() };
-        let at = [2.0 * s / (1.0 - skew + jacobian), 2.0 * t / (1.0 + skew + jacobian)];
-        (at[0].is_finite() && at[1].is_finite()).then_some(at)
+        [2.0 * s / (1.0 - skew + jacobian), 2.0 * t / (1.0 + skew + jacobian)]
     }
 
     /// The place, and derivatives by the local coordinates.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, [s, t]: Local) -> [Vector3; 3] {
         let place = self.x.map(|[c0, c1, c2, c3]| c0 + c1 * s + (c2 + c3 * s) * t);
         let along = self.x.map(|[_, c1, _, c3]| c1 + c3 * t);
@@ -93,7 +118,7 @@ impl Bilinear {
     }
 
     /// The area of a unit of local coordinates in the plane; negative of a face that is turned over.
-    #[inline]
+    #[inline(always)]
     pub(super) fn area(&self, at: Local) -> f64 {
         let [[_, x1, x2, _], [_, y1, y2, _], _] = self.x;
         (x1 * y2 - x2 * y1) * (1.0 + self.bend[1] * at[0] + self.bend[0] * at[1])

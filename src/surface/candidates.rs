@@ -140,7 +140,7 @@ impl<'a> Candidates<'a> {
                 let mut found = Vec::new();
                 for &other in masters {
                     let part = in_plane.overlap(&master.face(other), |_| true, &mut overlaps);
-                    overlaps.points.clear();
+                    overlaps.points.truncate(0);
                     let part = part.unwrap_or_default();
                     found.extend((part.share > 0.0).then_some(part.distance));
                 }

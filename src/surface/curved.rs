@@ -4,7 +4,7 @@
 use super::bilinear::Bilinear;
 use super::clip::Point;
 use super::face::Face;
-use super::shape::{FaceKind, Local, MOST_NODES};
+use super::shape::{Block, FaceKind, Local, MOST_NODES, each};
 use crate::linalg::vector3::Vector3;
 
 /// Steps of Newton's method to local coordinates. It converges by squares from the face that the corners span; the rest
@@ -61,7 +61,7 @@ fn polynomial(kind: FaceKind, at: impl Fn(usize) -> f64) -> Polynomial {
 }
 
 /// A polynomial with its derivatives.
-#[inline]
+#[inline(always)]
 fn evaluate(c: &Polynomial, [s, t]: Local) -> [f64; 3] {
     let value = |[c0, c1, c2]: &[f64; POWERS]| c0 + t * (c1 + t * c2);
     let slope = |[_, c1, c2]: &[f64; POWERS]| c1 + 2.0 * t * c2;
@@ -125,21 +125,49 @@ impl Curved {
     }
 
     fn newton(&self, p: Point, mut at: Local) -> Option<Local> {
-        for _ in 0..STEPS {
-            let [x, a, b] = evaluate(&self.x[0], at);
-            let [y, c, d] = evaluate(&self.x[1], at);
-            let from = [x - p[0], y - p[1]];
-            let inverse = 1.0 / (a * d - b * c);
-            let step =
-                [(from[0] * d - b * from[1]) * inverse, (a * from[1] - from[0] * c) * inverse];
-            at = [at[0] - step[0], at[1] - step[1]];
-            // The error that remains is of the order of its square, by the change of the derivatives.
-            let length = step[0].abs().max(step[1].abs());
-            if self.change * length * length <= LAST {
-                return Some(at);
+        (0..STEPS).any(|_| self.step(p, &mut at)).then_some(at)
+    }
+
+    /// [`Curved::local`] of all points of a block, in their places.
+    #[inline(always)]
+    pub(super) fn locals(
+        &self,
+        points: &mut [Block; 2],
+        count: usize,
+        corners: &Bilinear,
+    ) -> Option<()> {
+        let from = *points;
+        let mut steps = if corners.locals(points, count).is_some() { 0..STEPS } else { 0..0 };
+        while steps.next().is_some() {
+            let mut are_last = true;
+            for k in each(count) {
+                let mut at = [points[0][k], points[1][k]];
+                are_last &= self.step([from[0][k], from[1][k]], &mut at);
+                [points[0][k], points[1][k]] = at;
+            }
+            if are_last {
+                return Some(());
             }
         }
-        None
+        // One of them begins better elsewhere.
+        for k in each(count) {
+            [points[0][k], points[1][k]] = self.local([from[0][k], from[1][k]], corners)?;
+        }
+        Some(())
+    }
+
+    /// A step of Newton's method; `true` if it is the last.
+    #[inline(always)]
+    fn step(&self, p: Point, at: &mut Local) -> bool {
+        let [x, a, b] = evaluate(&self.x[0], *at);
+        let [y, c, d] = evaluate(&self.x[1], *at);
+        let from = [x - p[0], y - p[1]];
+        let inverse = 1.0 / (a * d - b * c);
+        let step = [(from[0] * d - b * from[1]) * inverse, (a * from[1] - from[0] * c) * inverse];
+        *at = [at[0] - step[0], at[1] - step[1]];
+        // The error that remains is of the order of its square, by the change of the derivatives.
+        let length = step[0].abs().max(step[1].abs());
+        self.change * length * length <= LAST
     }
 
     /// The place, and derivatives by the local coordinates.

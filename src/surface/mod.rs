@@ -37,6 +37,8 @@ mod fitted_normals;
 mod fitted_quadric;
 mod images;
 mod kept_surfaces;
+mod lists;
+mod meetings;
 mod mesh;
 mod mortar;
 mod motion;

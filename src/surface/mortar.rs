@@ -12,9 +12,10 @@ use std::collections::BTreeMap;
 use super::candidates::{Candidates, SAME_WAY};
 use super::control::Edges;
 use super::face::Face;
+use super::meetings::Meetings;
 use super::mesh::Side;
 use super::normals::{at_nodes, cancel, direction};
-use super::overlap::{Meeting, Overlaps, SlaveFace};
+use super::overlap::{Overlaps, SlaveFace};
 use super::pairs::{SurfacePairs, SurfaceReport, without_rounding};
 use super::projected_shapes::{Covered, Opposite, Polynomials};
 use super::rims::{self, SAME_COVER};
@@ -123,7 +124,7 @@ impl<'a> Search<'a> {
             self;
         let (points, reach) = (&mut overlaps.points, candidates.reach);
         parts.retain(|opposite| {
-            let from = face.position(points[opposite.points.start].slave);
+            let from = face.position(points.at(opposite.points.start)[0]);
             !own.end_above((from, normal), -opposite.part.distance, reach.of_shells())
         });
         let distances = parts.iter().map(|opposite| opposite.part.distance.abs());
@@ -172,13 +173,13 @@ impl<'a> Search<'a> {
         let Search { sides: [slave, master], candidates, shapes, overlaps, .. } = self;
         let of_gaps = shapes.as_ref().map_or(0, TrueSides::degree);
         let in_plane = SlaveFace::new(face, normal, of_gaps);
-        overlaps.points.clear();
+        overlaps.points.truncate(0);
         let reach = candidates.reach;
         let mut parts = Vec::new();
         for &opposite in candidates.of_face(face, normal) {
             slave.progress.goes_on()?;
             let other = master.face(opposite);
-            let before = overlaps.points.len();
+            let before = overlaps.points.count();
             let wanted = |distance| reach.holds(distance);
             let part = in_plane.overlap(&other, wanted, overlaps).ok_or_else(|| {
                 let opposite = master.named(opposite);
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
                 );
                 slave.refuse(at, &what)
             })?;
-            let points = before..overlaps.points.len();
+            let points = before..overlaps.points.count();
             if !points.is_empty() {
                 let (kind, nodes) = (other.kind, other.nodes);
                 parts.push(Opposite { at: opposite, kind, nodes, points, part });
@@ -200,12 +201,12 @@ impl<'a> Search<'a> {
 }
 
 /// Leaves the points of the parts alone.
-fn keep_points(parts: &mut [Opposite<'_>], points: &mut Vec<Meeting>) {
+fn keep_points(parts: &mut [Opposite<'_>], points: &mut Meetings) {
     let mut end = 0;
     for opposite in parts {
         let own = opposite.points.clone();
         opposite.points = end..end + own.len();
-        points.copy_within(own, end);
+        points.move_to(end, own);
         end = opposite.points.end;
     }
     points.truncate(end);

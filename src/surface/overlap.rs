@@ -8,9 +8,11 @@
 use super::bilinear::Bilinear;
 use super::clip::{Clipper, Point, measure, turn_left};
 use super::face::{Face, ON_EDGE};
+use super::meetings::Meetings;
 use super::plane::{Flat, MOST_SAG, Plane, outline};
 use super::quadrature::{self, MOST_POINTS};
-use super::shape::Local;
+use super::shape::{BLOCK, Block, each};
+use crate::linalg::simd::vectorised;
 use crate::linalg::vector3::Vector3;
 
 /// Parts smaller than this share of the slave face are left out on both sides: they are the rounding of
@@ -34,13 +36,19 @@ const OF_BENDING: f64 = 0.125;
 /// points along a line by .37 at either end.
 const BEYOND_POINTS: f64 = 0.5;
 
-/// A point where a slave and a master face lie over each other.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
-    pub(super) slave: Local,
-    pub(super) master: Local,
-    /// Area of the slave face.
-    pub(super) weight: f64,
+/// A block of points while they are made.
+#[derive(Debug, Default)]
+struct Places {
+    /// Places where the slave face is straight, then its local coordinates,
+    slave: [Block; 2],
+    /// and those of the master.
+    master: [Block; 2],
+    /// Parts of the common part.
+    parts: Block,
+    /// Distances along the normal.
+    heights: Block,
+    /// Areas of the slave face.
+    areas: Block,
 }
 
 /// A slave face in its auxiliary plane.
@@ -87,7 +95,8 @@ impl Part {
 #[derive(Debug, Default)]
 pub(super) struct Overlaps {
     /// The points, master face after master face.
-    pub(super) points: Vec<Meeting>,
+    pub(super) points: Meetings,
+    places: Places,
     clipper: Clipper,
     near: Clipper,
     /// A master's outline in the plane, and what lies between its points on curved edges.
@@ -153,7 +162,7 @@ impl<'a> SlaveFace<'a> {
         found: &mut Overlaps,
     ) -> Option<Part> {
         let seen = self.plane.project(master);
-        let Overlaps { points, clipper, near, window, bent, mapped, rest } = found;
+        let Overlaps { points, places, clipper, near, window, bent, mapped, rest } = found;
         outline(&seen, self.size, window, bent);
         let common = match &self.around {
             None => clipper.common_part(window, &self.outline),
@@ -167,9 +176,12 @@ impl<'a> SlaveFace<'a> {
         if !(area.abs() > LEAST_PART * self.area) {
             return Some(Part::default());
         }
-        let before = points.len();
+        let before = points.count();
         let share = area / self.area;
-        let part = Part { share, ..self.add_points(&Flat::new(seen), (common, rest), points)? };
+        let part = Part {
+            share,
+            ..self.add_points(&Flat::new(seen), (common, rest), (&mut *points, places))?
+        };
         if !wanted(part.distance) {
             points.truncate(before);
             return Some(Part::default());
@@ -250,26 +262,70 @@ impl<'a> SlaveFace<'a> {
         &self,
         master: &Flat<'_>,
         (common, rest): (&[Point], &mut Vec<Point>),
-        points: &mut Vec<Meeting>,
+        (points, places): (&mut Meetings, &mut Places),
     ) -> Option<Part> {
         let (mut distance, mut whole) = (0.0, 0.0);
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-        let in_plane = self.around.is_none();
-        let count = self.points_along(master);
-        quadrature::points(common, rest, count).try_for_each(|(p, part)| {
-            let slave = self.straight.local(p)?;
-            let [x, along, across] = self.flat.at(slave);
-            let normal = along.cross(&across);
-            let straight = if in_plane { normal.z } else { self.straight.area(slave) };
-            let area = part * normal.norm() / straight.abs();
-            let at = master.local(if in_plane { p } else { [x.x, x.y] })?;
-            let height = master.at(at)[0].z - x.z;
-            range = [range[0].min(height), range[1].max(height)];
-            distance += part * height;
-            whole += part;
-            points.push(Meeting { slave, master: at, weight: area * self.face.around(slave) });
-            Some(())
-        })?;
-        Some(Part { distance: distance / whole, range, ..Part::default() })
+        let mut all = quadrature::points(common, rest, self.points_along(master));
+        loop {
+            let mut count = 0;
+            for (p, part) in all.by_ref().take(BLOCK) {
+                ([places.slave[0][count], places.slave[1][count]], places.parts[count]) = (p, part);
+                count += 1;
+            }
+            if count == 0 {
+                return Some(Part { distance: distance / whole, range, ..Part::default() });
+            }
+            vectorised(
+                #[inline(always)]
+                || self.meet(master, places, count),
+            )?;
+            let Places { slave, master, parts, heights, areas } = &*places;
+            for (part, height) in parts.iter().zip(heights).take(count) {
+                range = [range[0].min(*height), range[1].max(*height)];
+                distance += part * height;
+                whole += part;
+            }
+            let [[s, t], [u, v]] = [slave, master];
+            for (list, block) in points.lists().into_iter().zip([s, t, u, v, areas]) {
+                list.extend_from_slice(&block[..count]);
+            }
+        }
+    }
+
+    /// Makes local coordinates of both faces and areas from the places and parts of a block of points. `None`: one has none.
+    #[inline(always)]
+    fn meet(&self, opposite: &Flat<'_>, places: &mut Places, count: usize) -> Option<()> {
+        let Places { slave, master, parts, heights, areas } = places;
+        let (in_plane, straight) = (self.around.is_none(), self.straight);
+        *master = *slave;
+        straight.locals(slave, count)?;
+        self.flat.each_at(
+            slave,
+            count,
+            #[inline(always)]
+            |k, [x, along, across]| {
+                let normal = along.cross(&across);
+                let local = [slave[0][k], slave[1][k]];
+                let flat = if in_plane { normal.z } else { straight.area(local) };
+                areas[k] = parts[k] * normal.norm() / flat.abs();
+                heights[k] = x.z;
+                let place = [master[0][k], master[1][k]];
+                [master[0][k], master[1][k]] = if in_plane { place } else { [x.x, x.y] };
+            },
+        );
+        opposite.locals(master, count)?;
+        opposite.each_at(
+            master,
+            count,
+            #[inline(always)]
+            |k, [x, ..]| heights[k] = x.z - heights[k],
+        );
+        if self.face.is_ring {
+            for k in each(count) {
+                areas[k] *= self.face.around([slave[0][k], slave[1][k]]);
+            }
+        }
+        Some(())
     }
 }

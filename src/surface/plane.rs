@@ -5,7 +5,7 @@ use super::bilinear::Bilinear;
 use super::clip::{self, Point};
 use super::curved::Curved;
 use super::face::Face;
-use super::shape::Local;
+use super::shape::{Block, Local, each};
 use crate::linalg::vector3::{Vector3, most_across, unit};
 
 /// A plane with its axes.
@@ -145,6 +145,39 @@ impl<'a> Flat<'a> {
         match &self.curved {
             Some(curved) => curved.local(p, &self.corners),
             None => self.corners.local(p),
+        }
+    }
+
+    /// [`Flat::local`] of all points of a block, in their places.
+    #[inline(always)]
+    pub(super) fn locals(&self, points: &mut [Block; 2], count: usize) -> Option<()> {
+        match &self.curved {
+            Some(curved) => curved.locals(points, count, &self.corners),
+            None => self.corners.locals(points, count),
+        }
+    }
+
+    /// [`Flat::at`] of all points of a block, each with its place in that.
+    #[inline(always)]
+    pub(super) fn each_at(
+        &self,
+        [s, t]: &[Block; 2],
+        count: usize,
+        mut then: impl FnMut(usize, [Vector3; 3]),
+    ) {
+        match self.curved {
+            // Coefficients of its own stay in registers while the loop writes.
+            Some(curved) => {
+                for k in each(count) {
+                    then(k, curved.at([s[k], t[k]]));
+                }
+            }
+            None => {
+                let corners = self.corners;
+                for k in each(count) {
+                    then(k, corners.at([s[k], t[k]]));
+                }
+            }
         }
     }
 

@@ -10,7 +10,9 @@ use std::ops::Range;
 
 use super::curved::POWERS;
 use super::face::Face;
-use super::overlap::{Meeting, Part};
+use super::lists::{Lists, add_lists, dot, dots, whole_lines};
+use super::meetings::Meetings;
+use super::overlap::Part;
 use super::shape::{FaceKind, Local, MOST_NODES, Values, padded};
 use crate::linalg::columns::LINE;
 use crate::linalg::simd::vectorised;
@@ -24,9 +26,6 @@ const PASSES: usize = 2;
 
 /// A function that keeps this share of its norm has lost nothing in the first pass.
 const KEPT: f64 = 0.9;
-
-/// Most nodes of a linear face.
-const MOST_LINEAR: usize = 4;
 
 /// The part of a slave face over one master face.
 #[derive(Clone, Debug)]
@@ -71,8 +70,8 @@ impl Covered {
 /// next face uses again.
 #[derive(Debug, Default)]
 pub(super) struct Polynomials {
-    /// Number of points.
-    points: usize,
+    /// Length of lists: the number of points, and at least a line of zeros behind them.
+    length: usize,
     /// At the slave's nodes.
     at_nodes: Vec<Values>,
     /// At the points, polynomial after polynomial.
@@ -85,64 +84,43 @@ pub(super) struct Polynomials {
     next: Vec<f64>,
     next_weighted: Vec<f64>,
     weights: Vec<f64>,
-}
-
-/// The sum of products, in as many sums beside each other as a line has numbers.
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (parts, a) = a.as_chunks::<LINE>();
-    let (others, b) = b.as_chunks::<LINE>();
-    let mut sums = [0.0; LINE];
-    for (part, other) in parts.iter().zip(others) {
-        (0..LINE).for_each(|k| sums[k] += part[k] * other[k]);
-    }
-    sums.iter().sum::<f64>() + a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()
-}
-
-/// Adds to sums of products, for each of some polynomials and the first `N` functions at two points.
-#[inline(always)]
-fn add_products<const N: usize>(
-    moments: &mut [Values],
-    polynomials: impl Iterator<Item = [f64; 2]>,
-    [first, second]: &[Values; 2],
-) {
-    for (sums, [p, q]) in moments.iter_mut().zip(polynomials) {
-        (0..N).for_each(|k| sums[k] += p * first[k] + q * second[k]);
-    }
+    /// Shape functions at some of the points, function after function.
+    functions: Lists,
 }
 
 /// Middle and half width of the points along each local coordinate.
-fn centre_and_scale(points: &[Meeting]) -> [(f64, f64); 2] {
-    let [mut low, mut high] = [points[0].slave; 2];
-    for (point, c) in points.iter().flat_map(|point| [(point, 0), (point, 1)]) {
-        let at = point.slave[c];
-        low[c] = if at < low[c] { at } else { low[c] };
-        high[c] = if at > high[c] { at } else { high[c] };
-    }
-    [0, 1].map(|c| {
-        let half = 0.5 * (high[c] - low[c]);
-        (0.5 * (low[c] + high[c]), if half > 0.0 { half } else { 1.0 })
+fn centre_and_scale(points: &Meetings) -> [(f64, f64); 2] {
+    points.slave.each_ref().map(|along| {
+        let (mut low, mut high) = (along[0], along[0]);
+        for &at in along {
+            low = if at < low { at } else { low };
+            high = if at > high { at } else { high };
+        }
+        let half = 0.5 * (high - low);
+        (0.5 * (low + high), if half > 0.0 { half } else { 1.0 })
     })
 }
 
 impl Polynomials {
     /// Makes the polynomials of a face with these points.
     #[inline(always)]
-    fn span(&mut self, kind: FaceKind, points: &[Meeting]) {
-        self.points = points.len();
+    fn span(&mut self, kind: FaceKind, points: &Meetings) {
+        self.length = whole_lines(points.count()) + LINE;
         self.at_nodes.clear();
         self.at_points.clear();
         self.weighted.clear();
         self.weights.clear();
-        self.weights.extend(points.iter().map(|point| point.weight));
+        self.weights.extend(&points.weights);
+        self.weights.resize(self.length, 0.0);
         let scales = centre_and_scale(points);
-        let scaled = |at: Local, c: usize| (at[c] - scales[c].0) / scales[c].1;
+        let scaled = |at: f64, c: usize| (at - scales[c].0) / scales[c].1;
         // Without the mean of the squares of -1 to 1 a square is orthogonal to what is constant there.
         let square = |x: f64| x * x - 1.0 / 3.0;
         for (c, [constant, first, second]) in self.powers.iter_mut().enumerate() {
             [&mut *constant, first, second].into_iter().for_each(Vec::clear);
-            constant.resize(points.len(), 1.0);
-            first.extend(points.iter().map(|point| scaled(point.slave, c)));
+            constant.resize(self.length, 1.0);
+            first.extend(points.slave[c].iter().map(|&at| scaled(at, c)));
+            first.resize(self.length, 0.0);
             second.extend(first.iter().map(|&x| square(x)));
         }
         for exponents in kind.exponents() {
@@ -151,7 +129,7 @@ impl Polynomials {
             self.next.clear();
             self.next.extend(along.iter().zip(across).map(|(s, t)| s * t));
             let power = |x: f64, exponent: usize| [1.0, x, square(x)][exponent];
-            let at_node = |&at: &Local| power(scaled(at, 0), i) * power(scaled(at, 1), j);
+            let at_node = |&at: &Local| power(scaled(at[0], 0), i) * power(scaled(at[1], 1), j);
             self.add(padded(kind.places().iter().map(at_node)));
         }
     }
@@ -173,42 +151,39 @@ impl Polynomials {
             if pass > 0 && left >= KEPT * before {
                 break;
             }
-            for (other, other_at_nodes) in self.at_nodes.iter().enumerate() {
-                let range = other * self.points..(other + 1) * self.points;
-                let part = dot(&self.weighted[range.clone()], &self.next);
-                let pairs = self.next.iter_mut().zip(&self.at_points[range]);
-                pairs.for_each(|(p, other)| *p -= part * other);
-                let pairs = at_nodes.iter_mut().zip(other_at_nodes);
-                pairs.for_each(|(p, other)| *p -= part * other);
+            let parts: Values = dots(&self.next, &self.weighted).map(|part| -part);
+            add_lists(&mut self.next, &parts[..self.at_nodes.len()], &self.at_points);
+            for (part, other) in parts.iter().zip(&self.at_nodes) {
+                at_nodes.iter_mut().zip(other).for_each(|(p, other)| *p += part * other);
             }
             left = self.weigh();
         }
         if left > DEPENDENT * before {
-            at_nodes.iter_mut().for_each(|p| *p /= left);
-            self.at_nodes.push(at_nodes);
-            self.at_points.extend(self.next.iter().map(|p| p / left));
-            self.weighted.extend(self.next_weighted.iter().map(|p| p / left));
+            let scale = 1.0 / left;
+            self.at_nodes.push(at_nodes.map(|p| p * scale));
+            self.at_points.extend(self.next.iter().map(|p| p * scale));
+            self.weighted.extend(self.next_weighted.iter().map(|p| p * scale));
         }
+    }
+
+    /// Integrals of the functions times the one that is made.
+    #[inline(always)]
+    fn integrals(&mut self) -> Values {
+        self.next_weighted.clear();
+        self.next_weighted.extend(self.weights.iter().zip(&self.next).map(|(w, p)| w * p));
+        dots(&self.next_weighted, &self.functions.values)
     }
 
     /// Adds what one master face has to the coefficients of its nodes.
     #[inline(always)]
-    fn add_moments(&self, opposite: &Opposite<'_>, points: &[Meeting], covered: &mut Covered) {
-        let (nodes, count) = (covered.slaves, opposite.nodes.len());
+    fn add_moments(&mut self, opposite: &Opposite<'_>, points: &Meetings, covered: &mut Covered) {
+        let (nodes, range) = (covered.slaves, opposite.points.clone());
+        let at = points.master.each_ref().map(|along| &along[range.clone()]);
+        self.functions.fill(opposite.kind, at);
+        let length = whole_lines(range.len());
         let mut moments = [[0.0; MOST_NODES]; MOST_NODES];
-        for at in opposite.points.clone().step_by(2) {
-            // A last point that is alone stands for two, one of which has no weight.
-            let (next, has_next) = match at + 1 < opposite.points.end {
-                true => (at + 1, 1.0),
-                false => (at, 0.0),
-            };
-            let functions = [at, next].map(|at| opposite.kind.values(points[at].master));
-            let made = self.weighted.chunks(self.points).map(|p| [p[at], has_next * p[next]]);
-            if count <= MOST_LINEAR {
-                add_products::<MOST_LINEAR>(&mut moments, made, &functions);
-            } else {
-                add_products::<MOST_NODES>(&mut moments, made, &functions);
-            }
+        for (moments, made) in moments.iter_mut().zip(self.weighted.chunks_exact(self.length)) {
+            *moments = dots(&made[range.start..][..length], &self.functions.values);
         }
         for (k, &node) in opposite.nodes.iter().enumerate() {
             let place = covered.masters.iter().position(|other| *other == node);
@@ -228,8 +203,8 @@ impl Polynomials {
     /// The coefficients at the slave's nodes of a field with these values at the points of the last face.
     pub(super) fn fit(&self, values: &[f64]) -> Values {
         let mut coefficients = [0.0; MOST_NODES];
-        for (at_nodes, weighted) in self.at_nodes.iter().zip(self.weighted.chunks(self.points)) {
-            let moment = dot(weighted, values);
+        for (at_nodes, weighted) in self.at_nodes.iter().zip(self.weighted.chunks(self.length)) {
+            let moment = dot(&weighted[..values.len()], values);
             coefficients.iter_mut().zip(at_nodes).for_each(|(sum, p)| *sum += moment * p);
         }
         coefficients
@@ -239,7 +214,7 @@ impl Polynomials {
     pub(super) fn project(
         &mut self,
         face: &Face<'_>,
-        points: &[Meeting],
+        points: &Meetings,
         parts: &[Opposite<'_>],
     ) -> Covered {
         let slave = face.kind;
@@ -258,14 +233,15 @@ impl Polynomials {
             #[inline(always)]
             || {
                 self.span(slave, points);
-                for point in points {
-                    let values = slave.values(point.slave);
-                    let x = face.sum(&values);
-                    for (j, value) in values.into_iter().enumerate().take(slaves) {
-                        let part = point.weight * value;
-                        covered.integrals[j] += part;
-                        (0..3).for_each(|axis| covered.moments[axis][j] += part * x[axis]);
-                    }
+                self.functions.fill(slave, points.slave.each_ref().map(|along| &along[..]));
+                self.next.clear();
+                self.next.resize(whole_lines(points.count()), 1.0);
+                covered.integrals = self.integrals();
+                for (axis, moments) in covered.moments.iter_mut().enumerate() {
+                    self.next.fill(0.0);
+                    let x: Values = face.x.map(|x| x[axis]);
+                    add_lists(&mut self.next, &x[..slaves], &self.functions.values);
+                    *moments = self.integrals();
                 }
                 for opposite in parts {
                     self.add_moments(opposite, points, &mut covered);

@@ -193,14 +193,15 @@ fn least_covers(
     }
     let beside = beside((slave, uncovered), at_rims.iter().copied(), NEAR)?;
     // From node to node go the best ones alone: where many faces meet in a node all are near each other.
-    let mut best: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut best: HashMap<usize, Vec<Weight>> = HashMap::new();
+    let covered = |at: usize| (at, rows[&at].cover());
     for _ in 0..NEAR {
         let mut next = HashMap::with_capacity(beside.len());
         for (&node, around) in &beside {
             slave.progress.goes_on()?;
-            let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![*at]);
+            let known = |at: &usize| best.get(at).cloned().unwrap_or_else(|| vec![covered(*at)]);
             let near = around.iter().chain([&node]).flat_map(known).collect();
-            next.insert(node, holders(near, rows, (slave, rows[&node].normal.normalize())));
+            next.insert(node, holders(near, (slave, rows[&node].normal.normalize())));
         }
         best = next;
     }
@@ -208,7 +209,7 @@ fn least_covers(
         let holders = &best[&node];
         let holds = holders.len() == slave.dim;
         // Those with as much keep theirs too.
-        let last = holders.last().filter(|_| holds).map_or(0.0, |last| rows[last].cover());
+        let last = holders.last().filter(|_| holds).map_or(0.0, |(_, cover)| *cover);
         let has = |least: f64| last >= least - SAME_COVER;
         let is_small = rims == Rims::Fold && !rows[&node].is_large;
         let least = match [LEAST_COVER, LITTLE_COVER].map(has) {
@@ -222,31 +223,27 @@ fn least_covers(
     Ok(at_rims.into_iter().map(least_of).collect())
 }
 
-/// Of some nodes those with most cover that hold a body, in the order of their covers: forces at their places along a normal balance
+/// Of some nodes with their covers those with most that hold a body, in the order of their covers: forces at their places along a normal balance
 /// all moments of such forces. The best of more nodes are among the best of each part of them.
-fn holders(
-    mut nodes: Vec<usize>,
-    rows: &BTreeMap<usize, Row>,
-    (slave, normal): (&Side<'_>, Vector3),
-) -> Vec<usize> {
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes.sort_by(|a, b| rows[b].cover().total_cmp(&rows[a].cover()));
-    let mut found: Vec<usize> = Vec::with_capacity(slave.dim);
-    for node in nodes {
-        let from_first = |at: usize| slave.position(at) - slave.position(found[0]);
+fn holders(mut nodes: Vec<Weight>, (slave, normal): (&Side<'_>, Vector3)) -> Vec<Weight> {
+    nodes.sort_unstable_by_key(|(node, _)| *node);
+    nodes.dedup_by_key(|(node, _)| *node);
+    nodes.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    let mut found: Vec<Weight> = Vec::with_capacity(slave.dim);
+    for (node, cover) in nodes {
+        let from_first = |at: usize| slave.position(at) - slave.position(found[0].0);
         let adds = match found[..] {
             [] => true,
             [_] => from_first(node) != Vector3::zeros(),
             // Of a curved surface as its normal sees it: a strip around a cylinder is a line.
-            [_, second, ..] => {
+            [_, (second, _), ..] => {
                 let (a, b) = (from_first(second), from_first(node));
                 let longest = a.norm_squared().max(b.norm_squared());
                 normal.dot(&a.cross(&b)).abs() > ON_PLANE * longest
             }
         };
         if adds {
-            found.push(node);
+            found.push((node, cover));
         }
         if found.len() == slave.dim {
             break;

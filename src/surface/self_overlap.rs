@@ -43,7 +43,7 @@ pub(super) fn check(side: &Side<'_>, faces: &mut Tree<'_>, reach: f64) -> Result
             let is_upon = |apart: f64| apart.abs() <= distance;
             // Faces that cannot be projected on each other do not lie upon each other.
             let common = in_plane.overlap(&second, is_upon, &mut overlaps);
-            overlaps.points.clear();
+            overlaps.points.truncate(0);
             let share = common.map_or(0.0, |part| part.share);
             let share = if share > 0.0 { in_plane.of_smaller(share, &second) } else { 0.0 };
             if share > UPON {

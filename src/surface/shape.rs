@@ -24,6 +24,18 @@ pub(super) fn padded<T: Copy + Default, const N: usize>(values: impl Iterator<It
 /// A point in a face's own coordinates. The second is zero on lines.
 pub(super) type Local = [f64; 2];
 
+/// Most points of a block.
+pub(super) const BLOCK: usize = 32;
+
+/// A number for each point of a block.
+pub(super) type Block = [f64; BLOCK];
+
+/// The places of so many points in a block.
+#[inline(always)]
+pub(super) fn each(count: usize) -> std::ops::Range<usize> {
+    0..count.min(BLOCK)
+}
+
 /// A point is on a face if it is beyond it by less than this, in local coordinates, or as a part of the coordinates while
 /// faces are looked for: nodes that stand on the rim by construction miss it by rounding.
 pub(super) const BEYOND: f64 = 1e-9;
@@ -69,6 +81,21 @@ const QUADRATIC: [[i32; 2]; 9] =
     [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [2, 1], [1, 2], [2, 2]];
 const BILINEAR: [[i32; 2]; 4] = [[0, 0], [1, 0], [0, 1], [1, 1]];
 const ON_LINE: [[i32; 2]; 3] = [[0, 0], [1, 0], [2, 0]];
+
+/// A method of a kind by code of each kind's own, without branches and loops over nodes.
+macro_rules! by_kind {
+    ($kind:expr, $method:ident($($argument:expr),*)) => {
+        match $kind {
+            Line2 => Line2.$method($($argument),*),
+            Line3 => Line3.$method($($argument),*),
+            T3 => T3.$method($($argument),*),
+            T6 => T6.$method($($argument),*),
+            Q4 => Q4.$method($($argument),*),
+            Q8 => Q8.$method($($argument),*),
+            Q9 => Q9.$method($($argument),*),
+        }
+    };
+}
 
 impl FaceKind {
     /// True if local coordinates are those of a point of the face.
@@ -175,18 +202,44 @@ impl FaceKind {
     }
 
     /// Shape functions at a point.
-    #[inline]
+    #[inline(always)]
     pub(super) fn values(self, at: Local) -> Values {
         self.functions(at).map(|[value]| value)
     }
 
+    /// Lists the shape functions at some points, function after function, by blocks of points.
+    #[inline(always)]
+    pub(super) fn values_at(
+        self,
+        at: [&[f64]; 2],
+        values: &mut [f64],
+        block: &mut [Block; MOST_NODES],
+    ) {
+        by_kind!(self, list(at, values, block));
+    }
+
+    /// [`FaceKind::values_at`], of one kind.
+    #[inline(always)]
+    fn list(self, [s, t]: [&[f64]; 2], values: &mut [f64], block: &mut [Block; MOST_NODES]) {
+        let length = values.len() / self.nodes();
+        for (place, (s, t)) in s.chunks(BLOCK).zip(t.chunks(BLOCK)).enumerate() {
+            for k in each(s.len().min(t.len())) {
+                let of_point = self.values([s[k], t[k]]);
+                (0..self.nodes()).for_each(|node| block[node][k] = of_point[node]);
+            }
+            for (list, block) in values.chunks_exact_mut(length).zip(&*block) {
+                list[place * BLOCK..][..s.len()].copy_from_slice(&block[..s.len()]);
+            }
+        }
+    }
+
     /// Derivatives of the shape functions at a point, by the two coordinates.
     pub(super) fn derivatives(self, at: Local) -> [[f64; 2]; MOST_NODES] {
-        self.functions(at).map(|[_, first, second]| [first, second])
+        by_kind!(self, functions(at)).map(|[_, first, second]| [first, second])
     }
 
     /// Shape functions, each as its value and, with three parts, its derivatives by the two coordinates.
-    #[inline]
+    #[inline(always)]
     pub(super) fn functions<const PARTS: usize>(self, [s, t]: Local) -> [[f64; PARTS]; MOST_NODES] {
         let mut functions = [[0.0; PARTS]; MOST_NODES];
         match self {
@@ -222,7 +275,7 @@ impl FaceKind {
     }
 
     /// Makes the functions of the corners zero at the mid nodes, where they are a half.
-    #[inline]
+    #[inline(always)]
     fn take_from_corners<const PARTS: usize>(self, functions: &mut [[f64; PARTS]; MOST_NODES]) {
         for (mid, corners) in self.mids() {
             for corner in corners {

@@ -10,9 +10,9 @@ use super::digits::ON_PLANE;
 use super::exact_shape::ExactShape;
 use super::face::Face;
 use super::fitted_normals::{self, Fitted, SMOOTH};
+use super::meetings::Meetings;
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
-use super::overlap::Meeting;
 use super::projected_shapes::Opposite;
 use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::Local;
@@ -96,7 +96,7 @@ impl<'a> TrueSides<'a> {
     pub(super) fn gaps(
         &self,
         (at, face): (usize, &Face<'_>),
-        points: &[Meeting],
+        points: &Meetings,
         parts: &[Opposite<'_>],
     ) -> Vec<f64> {
         let (size, own) = (face.size(), self.over(0, at, face));
@@ -105,16 +105,17 @@ impl<'a> TrueSides<'a> {
             let opposite = self.over(1, part.at, &opposite);
             // How far the last foot is from where facets meet: that of the next point is about as far.
             let mut moved = [0.0; 2];
-            let gap = |point: &Meeting| {
-                let from = own.point(point.slave);
+            let gap = |point: usize| {
+                let [slave, master] = points.at(point);
+                let from = own.point(slave);
                 let found = match opposite.exact {
                     Some(shape) => along_to_shape(from, shape, size),
-                    None => along_to_patch(from, |at| opposite.at(at), (point.master, &mut moved)),
+                    None => along_to_patch(from, |at| opposite.at(at), (master, &mut moved)),
                 };
                 // To the true point where facets meet.
-                found.unwrap_or_else(|| from.1.dot(&(opposite.point(point.master).0 - from.0)))
+                found.unwrap_or_else(|| from.1.dot(&(opposite.point(master).0 - from.0)))
             };
-            points[part.points.clone()].iter().map(gap).collect::<Vec<f64>>()
+            part.points.clone().map(gap).collect::<Vec<f64>>()
         };
         parts.iter().flat_map(of_part).collect()
     }
