@@ -33,7 +33,8 @@
 !
 ! Arguments that many calls have:
 !     friction  the law's parameters, pair by pair. Without it there is no friction.
-!     law       SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu),
+!     law       an integer, int(SIGNORINI_LAW_...) where integers have 8 bytes by an option:
+!               SIGNORINI_LAW_COULOMB (the default with friction: coefficients mu),
 !               SIGNORINI_LAW_TRESCA (thresholds g, forces); with three parameters a pair
 !               SIGNORINI_LAW_COHESIVE (mu, cohesion b, tension a) and, in 3D,
 !               SIGNORINI_LAW_ORTHOTROPIC, _ORTHOTROPIC_COLLINEAR (mu1, mu2, angle); with four
@@ -1794,8 +1795,8 @@ contains
     ! of them (1, 2, 3) and where it stands along that axis: pairs on one do not slip across it.
     ! normals: SIGNORINI_NORMALS_AVERAGED, the default, or _FACES. rims: SIGNORINI_RIMS_FOLD, the default,
     ! _KEEP or _FOLD_LITTLE. settings: in the place of the defaults, for axisymmetric, fitted, slave_shape and the fields after it,
-    ! time_limit, progress and user; an argument that is present comes before it. Of its lists symmetry_normals, with
-    ! symmetry_planes and symmetry_at, and those of a sector are read; index_base is not.
+    ! time_limit, progress and user; an argument that is present comes before it. Its lists count from 1,
+    ! whatever its index_base is.
     subroutine surfaces_pair(self, coordinates, slave, master, info, pairing, search_distance, dofs, &
             dofs_per_node, symmetry_axes, symmetry_at, normals, rims, message, settings)
         class(contact_surfaces), intent(inout) :: self
@@ -2217,8 +2218,6 @@ contains
         call list_faces(slave, told%slave)
         if (present(settings)) told%settings = settings
         told%settings%index_base = 1
-        told%settings%node_dofs = c_null_ptr
-        if (.not. c_associated(told%settings%symmetry_normals)) told%settings%symmetry_planes = 0
         if (present(search_distance)) then
             told%settings%search_distance = search_distance
             if (.not. search_distance > 0) call refuse(wrong, first, 'search_distance must be positive')

@@ -71,7 +71,7 @@ impl Certificate {
         let doubts = [
             (self.runs_away(), "the displacements are so large that rounding hides the forces"),
             (self.underflows, "the forces are so small that products have lost their digits"),
-            (self.hides_loads, "the forces are so large that rounding hides the loads"),
+            (self.hides_loads, "the forces are off equilibrium by more than the loads"),
         ];
         doubts.into_iter().find(|(holds, _)| *holds).map(|(_, doubt)| doubt)
     }

@@ -4,6 +4,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, entries_of, from_entries, times, transpose_times,
 };
+use crate::linalg::tolerances::ROUNDING;
 use crate::linalg::vector::norm_inf;
 
 /// How displacements follow from independent variables, `C` and `Z`, and from values of fixed degrees of freedom.
@@ -82,12 +83,20 @@ impl Dependence {
         relative
     }
 
-    /// The displacements that values of the fixed degrees of freedom (`None`: zero) add to those of the variables.
+    /// The displacements that values of the fixed degrees of freedom (`None`: zero) add to those of the variables. Values that
+    /// cancel, as those of a rigid turn, add none: their rounding would pass for gaps.
     pub(crate) fn offset(&self, prescribed: Option<&[f64]>) -> Vec<f64> {
-        match prescribed {
-            Some(values) => times(&self.of_fixed, values),
-            None => vec![0.0; self.of_fixed.nrows()],
+        let (mut offset, mut sizes) = (vec![0.0; self.of_fixed.nrows()], Vec::new());
+        sizes.clone_from(&offset);
+        for (j, value) in prescribed.unwrap_or_default().iter().enumerate() {
+            for (i, part) in entries_of(&self.of_fixed, j) {
+                offset[i] += part * value;
+                sizes[i] += (part * value).abs();
+            }
         }
+        let left = offset.iter_mut().zip(sizes).filter(|(sum, size)| sum.abs() <= ROUNDING * size);
+        left.for_each(|(sum, _)| *sum = 0.0);
+        offset
     }
 
     /// `Cᵀ F`.

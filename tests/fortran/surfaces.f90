@@ -17,6 +17,10 @@ program surfaces_test
     real(c_double), allocatable :: moved(:, :)
     type(signorini_obstacle) :: plane
     real(dp) :: d(4), force(4), load(10), pressure(5), traction(2, 5), clearance(5), apart(2, 5), u(10)
+    real(dp), parameter :: halves(2, 4) = reshape([0._dp, 0.1_dp, 1._dp, 0.1_dp, 0._dp, 0._dp, 2._dp, 0._dp], [2, 4])
+    type(signorini_surface_settings) :: lists
+    integer(c_int32_t), target :: across = 1
+    real(dp), target :: origin = 0
     integer :: info, failed, i, state(2), node_state(5), starts(11), rows(10)
     character(len=256) :: message
 
@@ -30,6 +34,16 @@ program surfaces_test
         all(abs(surfaces%tangent - reshape([1, 0, 1, 0], [2, 2])) < 1d-15))
     call expect('nodes', all(surfaces%node == [1, 2]) .and. all(abs(surfaces%point - places(:, :2)) < 1d-15))
     call expect('summary', index(surfaces%summary(), '2 pairs on 100.00 %') == 1)
+
+    ! The half to the right of x = 0: its plane by arguments, and by the lists of settings, which count from 1.
+    call surfaces%pair(halves, slave, reshape([4, 3], [2, 1]), info, symmetry_axes=[1], symmetry_at=[0._dp])
+    call expect('half', info == 0 .and. surfaces%pairs == 2 .and. surfaces%data%on_symmetry == 1)
+    lists%symmetry_planes = 1
+    lists%symmetry_axes = c_loc(across)
+    lists%symmetry_at = c_loc(origin)
+    call surfaces%pair(halves, slave, reshape([4, 3], [2, 1]), info, settings=lists)
+    call expect('half by settings', info == 0 .and. surfaces%pairs == 2 .and. surfaces%data%on_symmetry == 1)
+    call surfaces%pair(places, slave, master, info)
 
     ! Pressed down by 1 at each node: all move by statics of springs; without friction the forces of the
     ! contact are those that the other line has, and nothing else acts on it.

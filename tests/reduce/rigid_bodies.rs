@@ -157,6 +157,68 @@ fn stiffness_within_a_rigid_body_on_elastic_nodes_is_none() {
     }
 }
 
+/// A node is tied twice to the place where it stands, by two triangles of supports that turn rigidly: both prescribe the same motion, and
+/// only rounding parts them. It follows, and nothing acts.
+#[test]
+fn ties_of_supports_that_move_rigidly_agree() {
+    for seed in 0..200 {
+        let rng = &mut Rng::with_seed(seed);
+        let mut place = || nalgebra::Vector2::new(uniform(rng, -1.0, 1.0), uniform(rng, -1.0, 1.0));
+        let (own, corners): (_, [[_; 3]; 2]) =
+            (place(), [[(); 3]; 2].map(|of| of.map(|()| place())));
+        let [turn, x, y] = [0; 3].map(|_| uniform(rng, -0.1, 0.1));
+        let motion = |p: &nalgebra::Vector2<f64>| [x - turn * p.y, y + turn * p.x];
+        let mut stiffness = vec![0.0; 14 * 14];
+        for (k, corner) in corners[0].iter().enumerate() {
+            let mut v = [0.0; 14];
+            for c in 0..2 {
+                (v[c], v[2 * (k + 1) + c]) = (own[c] - corner[c], corner[c] - own[c]);
+            }
+            add_spring(&mut stiffness, 1e3, &v);
+        }
+        let row = |triangle: usize| {
+            let of = &corners[triangle];
+            let sides = nalgebra::Matrix2::from_columns(&[of[1] - of[0], of[2] - of[0]]);
+            let [b, c] = sides.try_inverse().map(|inverse| (inverse * (own - of[0])).into())?;
+            let weights: [f64; 4] = [1.0, b + c - 1.0, -b, -c];
+            let nodes = [0, 3 * triangle + 1, 3 * triangle + 2, 3 * triangle + 3];
+            let entry = |(node, weight): (usize, f64)| {
+                [(2 * node, vec![weight, 0.0]), (2 * node + 1, vec![0.0, weight])]
+            };
+            let is_fair = weights.iter().all(|weight| weight.abs() < 10.0);
+            is_fair.then(|| nodes.into_iter().zip(weights).flat_map(entry).collect())
+        };
+        let [Some(first), Some(second)] = [row(0), row(1)] else { continue };
+        let structure = Constrained {
+            dim: 2,
+            stiffness,
+            fixed: (2..14).collect(),
+            equations: vec![],
+            rows: vec![first, second],
+            normals: [0.6, 0.8].repeat(2),
+            tangents: None,
+        };
+        let values: Vec<f64> = corners.iter().flatten().flat_map(motion).collect();
+        let settings = Settings::default();
+        let case = LoadCase {
+            load: &[0.0; 14],
+            prescribed: Some(&values),
+            gap: &[0.0; 2],
+            law: FrictionLaw::Tied,
+            reference_slip: None,
+        };
+        let model = structure.whole(&settings);
+        let monitor = &mut Monitor::new(&settings, None);
+        let solution = model.solve(&case, &settings, None, monitor).unwrap();
+        assert_eq!(solution.status, Status::Solved, "seed {seed}: {}", solution.message);
+        let u = model.recover(None, Some(&values), &solution.d).unwrap();
+        // Weights below 10 times the rounding of numbers of the size one, and springs of 1e3 times that.
+        close(&u[..2], &motion(&own), 1e-12, &format!("seed {seed}"));
+        let force = solution.certificate.force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        assert!(force < 1e-11, "seed {seed}: {force:e}");
+    }
+}
+
 /// A rigid body of no stiffness on a rigid plane: forces of its nodes balance the load if this does not slide, `|T| <= mu N`, and
 /// acts within the base, where it has fallen by the gap; otherwise no equilibrium exists. Its nodes have rows in the matrix that are
 /// empty, or none, and lengths have any unit. Loads nearer than a thousandth to a limit are left out.

@@ -64,13 +64,13 @@ def warn_of_supports(contact, fixed, name=None):
         return np.linalg.norm(np.where(free, normal, 0.0), axis=-1) <= _ALONG
     pairs = np.flatnonzero(along(contact.normals, ~held))
     around, rows = _beside(contact, contact.nodes[pairs]), contact.rows
+    slave_dofs = contact._dofs_of(np.unique(np.concatenate([np.ravel(face) for face in contact.slave_faces]))).ravel()
     for pair in pairs:
         normal, (dofs, weights) = contact.normals[pair], rows[pair]
         near = contact._dofs_of(np.array(sorted(around[contact.nodes[pair]])))
         if dofs.ndim == 1:  # by degree of freedom: those along the normal
-            parts = weights @ normal
-            is_held = is_fixed[dofs]
-            is_master = parts * (weights @ np.ones(contact.dim)) < 0
+            parts, is_held = weights @ normal, is_fixed[dofs]
+            is_master = ~np.isin(dofs, slave_dofs)
         else:
             parts, is_held, is_master = weights, along(normal, ~is_fixed[dofs]), weights < 0
         if not (is_held & is_master).any() or not (parts[~is_held] != 0).any():
