@@ -49,10 +49,13 @@ pub(super) const SAME_COVER: f64 = 1e-6;
 /// carries is too little to be seen.
 const NEXT_BUT_ONE: f64 = 0.02;
 
-/// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs, by the fourth power
-/// of the distances of their middles: near by the pressures are that the row shall have, and rows do not jump where one node becomes
-/// nearer than another. One that finds none keeps its own, and takes in others. So are the rows of nodes that supports hold, and most
-/// of the masters under them.
+/// A node shares in a row while the least squared distance of middles is more than this part of its own: up to 5 % further away.
+/// The share falls to zero there, so that rows do not jump where one node becomes nearer than another.
+const AS_NEAR: f64 = 0.9;
+
+/// Folds the rows of nodes with little cover: each is shared out to those nodes of its own faces that keep theirs whose
+/// middles are nearest: there the pressures are that the row shall have. One that finds none keeps its own, and takes in others. So are
+/// the rows of nodes that supports hold, and most of the masters under them.
 pub(super) fn fold(
     settings: &SurfaceSettings,
     rows: &mut BTreeMap<usize, Row>,
@@ -91,7 +94,7 @@ pub(super) fn fold(
         // Where a rim goes through the point at which slivers meet each would have all masters under them.
         into.truncate(MANY_FACES);
         let least = into.first().expect("a folded node has a home").1;
-        into.iter_mut().for_each(|(_, away)| *away = (least / *away).powi(2));
+        into.iter_mut().for_each(|(_, away)| *away = (least / *away - AS_NEAR).max(0.0));
         (node, into)
     };
     // Middles are those of rows that have taken in none.
@@ -99,7 +102,7 @@ pub(super) fn fold(
     let fold = |(node, into): (usize, Vec<Weight>)| {
         let row = rows.remove(&node).expect("each node is folded once");
         let sum: f64 = into.iter().map(|(_, worth)| worth).sum();
-        for (home, worth) in &into {
+        for (home, worth) in into.iter().filter(|(_, worth)| *worth > 0.0) {
             let home = rows.get_mut(home).expect("a home keeps its row");
             home.take_in((&row, moving.of(node)), worth / sum);
         }
