@@ -83,9 +83,12 @@ impl<'a> Tree<'a> {
 
     /// Looks behind the box of a branch for the first time.
     fn open(&mut self, place: usize) -> Inside {
-        let faces = self.branches[place].faces.clone();
-        let mut walls = self.walls(&self.order[faces.clone()]);
-        if self.has_hubs {
+        let Branch { bounds, faces, .. } = &self.branches[place];
+        let faces = faces.clone();
+        let is_deep = self.are_deep(&self.order[faces.clone()], bounds);
+        let mut walls =
+            if is_deep { self.walls(&self.order[faces.clone()]) } else { [Wall::default(); 2] };
+        if self.has_hubs && is_deep {
             walls.iter_mut().for_each(|wall| wall.tilts = [-1.0 / BEYOND, 1.0 / BEYOND]);
             for &at in &self.order[faces.clone()] {
                 let face = self.side.face(at);
@@ -107,6 +110,13 @@ impl<'a> Tree<'a> {
         let inside = Inside { walls, halves };
         self.branches[place].inside = Some(inside);
         inside
+    }
+
+    /// True if boxes of faces lie over each other more often than a leaf has faces, in the mean over the box of all: those of
+    /// needles that lean do, and of layers.
+    fn are_deep(&self, faces: &[usize], bounds: &Bounds) -> bool {
+        let areas = faces.iter().map(|&at| self.boxes[at].diagonal().powi(2));
+        areas.sum::<f64>() > LEAF as f64 * bounds.diagonal().powi(2)
     }
 
     /// The two walls of faces: of the edges of some of them, whose lengths are their sizes, that beyond which these reach least,
