@@ -2,6 +2,7 @@
 
 use super::digits::{ON_PLANE, left_open};
 use super::face::Face;
+use super::motion::Motion;
 use super::pairing_progress::PairingProgress;
 use super::pairs::Weight;
 use super::settings::SurfaceSettings;
@@ -19,8 +20,8 @@ pub(super) struct Side<'a> {
     pub(super) dim: usize,
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
-    /// The last faces are images of these.
-    origins: &'a [usize],
+    /// The last faces are images of these, by these motions.
+    origins: &'a [(Motion, usize)],
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,
@@ -149,8 +150,8 @@ impl<'a> Side<'a> {
         self.argument == Argument::Obstacle
     }
 
-    /// The face of the host that a face is the image of, if it is one.
-    fn origin(&self, face: usize) -> Option<usize> {
+    /// The motion and the face of the host that a face is the image of, if it is one.
+    pub(super) fn origin(&self, face: usize) -> Option<(Motion, usize)> {
         let image = (face + self.origins.len()).checked_sub(self.count());
         image.map(|image| self.origins[image])
     }
@@ -168,7 +169,7 @@ impl<'a> Side<'a> {
     /// The number of a face for a message.
     pub(super) fn named(&self, face: usize) -> String {
         match self.origin(face) {
-            Some(origin) => format!("{} (turned, mirrored or shifted)", index(origin)),
+            Some((_, origin)) => format!("{} (turned, mirrored or shifted)", index(origin)),
             None => index(face),
         }
     }
@@ -231,7 +232,7 @@ impl<'a> Side<'a> {
         self,
         coordinates: &'a [f64],
         faces: Faces<'a>,
-        origins: &'a [usize],
+        origins: &'a [(Motion, usize)],
     ) -> Side<'a> {
         Side { coordinates, faces, origins, ..self }
     }

@@ -33,13 +33,13 @@ const OF_PATCH: usize = 4;
 /// A face of a side with its shape.
 struct Over<'a> {
     face: &'a Face<'a>,
-    exact: Option<&'a ExactShape>,
+    exact: Option<ExactShape>,
     patch: Option<Patch>,
 }
 
 /// Slave and master with their true shapes.
 pub(super) struct TrueSides<'a> {
-    master: &'a Side<'a>,
+    sides: [&'a Side<'a>; 2],
     /// The exact shapes, or fitted normals; without either a side is its faces.
     exact: [Option<ExactShape>; 2],
     fitted: [Option<Fitted>; 2],
@@ -51,7 +51,7 @@ impl<'a> TrueSides<'a> {
     /// # Errors
     /// A shape with wrong numbers, or one that a node of its side is far from.
     pub(super) fn new(
-        [slave, master]: [&'a Side<'a>; 2],
+        sides: [&'a Side<'a>; 2],
         settings: &SurfaceSettings,
     ) -> Result<Option<TrueSides<'a>>, Error> {
         let shapes = &settings.shapes;
@@ -59,7 +59,7 @@ impl<'a> TrueSides<'a> {
             return Ok(None);
         }
         let (mut exact, mut fitted) = ([None; 2], [None, None]);
-        for (k, (side, name)) in [(slave, "slave"), (master, "master")].into_iter().enumerate() {
+        for (k, (side, name)) in sides.into_iter().zip(["slave", "master"]).enumerate() {
             let refuse = |message: String| {
                 Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
             };
@@ -73,13 +73,17 @@ impl<'a> TrueSides<'a> {
                 }
             }
         }
-        Ok(Some(TrueSides { master, exact, fitted }))
+        Ok(Some(TrueSides { sides, exact, fitted }))
     }
 
-    /// A face of the slave, 0, or of the master, 1.
-    fn over<'s>(&'s self, side: usize, at: usize, face: &'s Face<'_>) -> Over<'s> {
+    /// A face of the slave, 0, or of the master, 1; an image has the image of the shape.
+    fn over<'s>(&self, side: usize, at: usize, face: &'s Face<'_>) -> Over<'s> {
         let patch = self.fitted[side].as_ref().map(|normals| Patch::new(face, &normals[at]));
-        Over { face, exact: self.exact[side].as_ref(), patch }
+        let exact = self.exact[side].map(|shape| match self.sides[side].origin(at) {
+            Some((motion, _)) => shape.moved(&motion, self.sides[side].scale),
+            None => shape,
+        });
+        Over { face, exact, patch }
     }
 
     /// The size of lengths that gaps are differences of, beside the places of nodes.
@@ -101,14 +105,14 @@ impl<'a> TrueSides<'a> {
     ) -> Vec<f64> {
         let (size, own) = (face.size(), self.over(0, at, face));
         let of_part = |part: &Opposite<'_>| {
-            let opposite = self.master.face(part.at);
+            let opposite = self.sides[1].face(part.at);
             let opposite = self.over(1, part.at, &opposite);
             // How far the last foot is from where facets meet: that of the next point is about as far.
             let mut moved = [0.0; 2];
             let gap = |point: usize| {
                 let [slave, master] = points.at(point);
                 let from = own.point(slave);
-                let found = match opposite.exact {
+                let found = match &opposite.exact {
                     Some(shape) => along_to_shape(from, shape, size),
                     None => along_to_patch(from, |at| opposite.at(at), (master, &mut moved)),
                 };
@@ -126,7 +130,7 @@ impl<'a> TrueSides<'a> {
 /// nodes may stand on chords.
 fn is_near(side: &Side<'_>, shape: &ExactShape) -> Result<(), String> {
     let of_corners = ((1.0 - SMOOTH) / 8.0).sqrt();
-    for at in 0..side.count() {
+    for at in (0..side.count()).filter(|at| !side.is_image(*at)) {
         let face = side.face(at);
         let mut is_off = false;
         for (place, &node) in face.nodes.iter().enumerate() {
@@ -177,7 +181,8 @@ impl Over<'_> {
     fn point(&self, at: Local) -> (Vector3, Vector3) {
         let (x, [a, b]) = self.at(at);
         let outward = unit(a.cross(&b)).unwrap_or_default();
-        let Some((distance, Some(gradient))) = self.exact.map(|shape| shape.distance(x)) else {
+        let Some((distance, Some(gradient))) = self.exact.as_ref().map(|shape| shape.distance(x))
+        else {
             return (x, outward);
         };
         let sign = if gradient.dot(&outward) < 0.0 { -1.0 } else { 1.0 };

@@ -25,8 +25,8 @@ struct Extended {
     coordinates: Vec<f64>,
     start: Vec<usize>,
     nodes: Vec<usize>,
-    /// The own face of each image.
-    origins: Vec<usize>,
+    /// The motion and the own face of each image.
+    origins: Vec<(Motion, usize)>,
 }
 
 /// The images of a slave side and of what it faces.
@@ -144,11 +144,12 @@ impl Extended {
     /// Too many images; what stops the pairing.
     fn new(numbering: &mut Numbering, side: &Side<'_>, faces: &[Image]) -> Result<Extended, Error> {
         let Faces { start, nodes } = side.faces;
+        let motion_and_face = |&(place, face): &Image| (numbering.images.motion(place), face);
         let mut all = Extended {
             coordinates: side.coordinates.to_vec(),
             start: start.to_vec(),
             nodes: nodes.to_vec(),
-            origins: faces.iter().map(|(_, face)| *face).collect(),
+            origins: faces.iter().map(motion_and_face).collect(),
         };
         for &(place, face) in faces {
             side.progress.goes_on()?;

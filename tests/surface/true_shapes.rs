@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::surfaces::{SHAPES, Shape, Sheet, TwoSheets, line, pair};
 use fastrand::Rng;
-use signorini::surface::{Obstacle, Pairing, SurfaceSettings, SymmetryPlane, TrueShape};
+use signorini::surface::{Obstacle, Pairing, Sector, SurfaceSettings, SymmetryPlane, TrueShape};
 
 type Point = [f64; 3];
 
@@ -100,6 +100,74 @@ fn flat_faces_have_the_gaps_of_their_plane() {
             for pair in &found.pairs {
                 assert!((pair.gap - 0.25).abs() < 1e-14, "{slave:?}, {master:?}: {}", pair.gap);
             }
+        }
+    }
+}
+
+/// The images of a side have the images of its shape. Flat faces that meet a plane of symmetry at an angle, so that the whole is a
+/// roof, or that meet their images in the sectors beside, so that it is a pyramid, touch everywhere if their planes are one. To a hundred
+/// roundings.
+#[test]
+fn images_have_the_images_of_their_shapes() {
+    let rng = &mut Rng::with_seed(31);
+    let quarters = Sector { axis: [0.0, 0.0, 1.0], count: 4, ..Default::default() };
+    for slope in [0.3, -0.3] {
+        let roof = move |[x, y, _]: Point| [x, y, slope * (x + y)];
+        let plane = Obstacle::Plane { point: [0.0; 3], outward: [slope, slope, -1.0] };
+        let shapes = [TrueShape::Exact(plane), TrueShape::Exact(plane)];
+        for (kind, other) in SHAPES.into_iter().flat_map(|s| SHAPES.map(|m| (s, m))) {
+            let below = Sheet::rectangle(kind, [3; 2], [[0.0, 0.8]; 2], (0.0, rng));
+            let above = Sheet::rectangle(other, [4; 2], [[0.0, 1.0]; 2], (0.0, rng)).turned();
+            let sheets = TwoSheets::new(3, below.mapped(roof), above.mapped(roof));
+            let planes = [0, 1].map(|axis| SymmetryPlane::across(axis, 0.0)).to_vec();
+            for (symmetry, sector) in [(planes, None), (vec![], Some(quarters))] {
+                let settings = SurfaceSettings { shapes, symmetry, sector, ..Default::default() };
+                let found = sheets.pair(&settings).unwrap();
+                assert!(found.unpaired.is_empty());
+                for pair in &found.pairs {
+                    let off = pair.gap.abs();
+                    assert!(off < 2e-14, "{kind:?}, {other:?}, {slope}: {off:e}");
+                }
+            }
+        }
+    }
+}
+
+/// A shape that stands inside of a sector, or beside a plane of symmetry, is that of the model alone: a pin in a bore
+/// has the gap of both radii, whatever image of it is near.
+#[test]
+fn shapes_inside_of_a_part_of_the_body_are_its_own() {
+    let rng = &mut Rng::with_seed(32);
+    let middle = [1.0, 0.6, 0.0];
+    let bore = |out: f64, [around, along]: [usize; 2], rng: &mut Rng| {
+        let flat =
+            Sheet::rectangle(Shape::Q4, [around, along], [[0.0, TAU], [0.0, 1.0]], (0.0, rng));
+        let (radius, [x0, y0, _]) = (0.3 + out, middle);
+        let place =
+            move |[angle, z, _]: Point| [x0 + radius * angle.cos(), y0 + radius * angle.sin(), z];
+        closed(flat.mapped(place))
+    };
+    let shapes = [0.0, APART].map(|out| {
+        let (radius, axis) = (0.3 + out, [0.0, 0.0, 1.0]);
+        TrueShape::Exact(Obstacle::Cylinder { point: middle, axis, radius, hollow: out > 0.0 })
+    });
+    let sheets = TwoSheets::new(3, bore(0.0, [16, 2], rng), bore(APART, [24, 3], rng).turned());
+    let plane = |axis, at| vec![SymmetryPlane::across(axis, at)];
+    let around = Sector { axis: [0.0, 0.0, 1.0], count: 4, ..Default::default() };
+    let beside = Sector { periods: [[0.7, 0.0, 0.0], [0.0; 3]], ..Default::default() };
+    for (symmetry, sector) in [
+        (plane(0, 0.68), None),
+        (plane(1, 0.0), None),
+        (plane(2, 0.0), None),
+        (vec![], Some(around)),
+        (vec![], Some(beside)),
+        (plane(2, 0.0), Some(around)),
+    ] {
+        let settings = SurfaceSettings { shapes, symmetry, sector, ..Default::default() };
+        let found = sheets.pair(&settings).unwrap();
+        assert!(found.pairs.len() == 16 * 3, "{} pairs", found.pairs.len());
+        for pair in &found.pairs {
+            assert!((pair.gap - APART).abs() < 1e-12, "{:?}: {}", settings.symmetry, pair.gap);
         }
     }
 }
