@@ -87,7 +87,8 @@ impl SurfacePairs {
         }
         let on_planes = self.on_symmetry().count();
         if on_planes > 0 {
-            found += &format!("; {on_planes} of the pairs on planes of symmetry");
+            let axis = if self.axisymmetric { "the axis and " } else { "" };
+            found += &format!("; {on_planes} of the pairs on {axis}planes of symmetry");
         }
         let idle: Vec<String> = report.idle_planes.iter().map(|plane| index(*plane)).collect();
         if !idle.is_empty() {

@@ -480,10 +480,10 @@ class Sectors(unittest.TestCase):
 
 
 class Decks(unittest.TestCase):
-    def read(self, deck, **more):
+    def read(self, deck, encoding="utf-8", **more):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "deck.inp")
-            with open(path, "w", encoding="utf-8") as file:
+            with open(path, "w", encoding=encoding) as file:
                 file.write(deck)
             return signorini.read_equations(path, **more)
 
@@ -493,6 +493,12 @@ class Decks(unittest.TestCase):
         self.assertEqual(self.read(deck), [(3, [12, 13], [0.5, -2.0]), (7, [], []), (20, [2], [1.0])])
         found = self.read(deck, number=lambda node, direction: 10 * node + direction)
         self.assertEqual(found[0], (21, [51, 52], [0.5, -2.0]))
+
+    def test_encodings(self):
+        deck = "*EQUATION\n2\n2,1,1.0,5,1,-1.\n"
+        self.assertEqual(self.read(deck, encoding="utf-8-sig"), [(3, [12], [1.0])])
+        with self.assertRaisesRegex(ValueError, "line 1: a NUL character, .* save it as UTF-8"):
+            self.read(deck, encoding="utf-16")
 
     def test_types_of_mpc(self):
         """Motions that each type allows obey its equations, and one that it forbids does not: rigid motions, those along

@@ -547,6 +547,26 @@ class CurvedCut(unittest.TestCase):
             turned += np.sum(abs(part.d[:, 1:] - slips[place]) > 1e-5)
         self.assertGreater(turned, 0)
 
+    def test_bounds_of_a_proof_hold_along_the_tangents_of_zones(self):
+        """What is within the bounds of a pair of two zones is within those of the part of each: corners are the furthest."""
+        model, contacts = self.model(-0.02, -0.02, tangent=[1.0, 2.0, 3.0])
+        result = model.solve(self.load, mu=0.01, proof=True)
+        self.assertIsNotNone(result.radius_d)
+        turned = 0
+        for name in contacts:
+            part, place = result.zone(name), result.contact.places[name]
+            away = np.einsum("pai,pbi->pab", part.frames[:, 1:], model.frames[place, 1:])
+            corners = [np.einsum("pab,pb->pa", away, result.radius_d[place, 1:] * signs) for signs in ([1, 1], [1, -1])]
+            furthest = np.abs(corners).max(axis=0)
+            np.testing.assert_allclose(part.radius_d[:, 1:], furthest, rtol=1e-9)
+            turned += np.sum(furthest > 1.01 * result.radius_d[place, 1:])
+        self.assertGreater(turned, 0)
+
+    def test_a_zone_that_has_not_slipped(self):
+        model, contacts = self.model(-0.02, -0.02)
+        nothing, zeros = (model.solve(self.load, mu=0.3, slip0=dict.fromkeys(contacts, slip)) for slip in (None, 0.0))
+        np.testing.assert_array_equal(nothing.F, zeros.F)
+
 
 if __name__ == "__main__":
     unittest.main()

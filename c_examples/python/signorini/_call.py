@@ -10,6 +10,7 @@ from ._structures import Callback, Settings
 
 NAMES = ("method", "tolerance", "omega", "damping", "max_iterations", "time_limit", "search",
          "proof", "memory_limit", "full_space", "threads")
+OF_MODELS = ("time_limit", "memory_limit", "full_space", "threads")
 COUNTS = ("max_iterations", "memory_limit", "threads")
 FAMILIES = {"method": Method, "search": Search}
 
@@ -17,14 +18,15 @@ FAMILIES = {"method": Method, "search": Search}
 class Call:
     """Settings of one call, with its progress function and what came of it."""
 
-    def __init__(self, functions, settings, warm_start=False):
+    def __init__(self, functions, settings, warm_start=False, names=NAMES):
         self.functions, self.error, self.pending, self.inside = functions, None, None, False
         self.settings = Settings()
         functions.settings_default(self.at(), ctypes.sizeof(Settings))
         self.progress = settings.pop("progress", None)
         for name, value in settings.items():
-            if name not in NAMES:
-                raise TypeError(f"{name} is not a setting; settings: {', '.join(NAMES)}, progress")
+            if name not in names:
+                why = "one of solve: give it there" if name in NAMES else "not a setting"
+                raise TypeError(f"{name} is {why}; settings here: {', '.join(names)}, progress")
             if name in FAMILIES:
                 value = chosen(name, FAMILIES[name], value)
             try:

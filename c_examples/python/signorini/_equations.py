@@ -202,8 +202,10 @@ def read_equations(path, number=None, coordinates=None):
     BEAM is that of Abaqus, which turns with its node: what CalculiX calls so keeps a distance, as LINK.
     """
     cards, begun, place = _Cards(path, number or _solid, coordinates), "", 0
-    with open(path, encoding="utf-8", errors="replace") as deck:
+    with open(path, encoding="utf-8-sig", errors="replace") as deck:
         for place, line in enumerate(map(str.strip, deck), 1):
+            if "\0" in line:
+                cards.fail(place, "a NUL character, as a deck in UTF-16 has them: save it as UTF-8 or ASCII")
             if not line or line.startswith("**"):
                 continue
             # A card that ends with a comma goes on, but with no number.

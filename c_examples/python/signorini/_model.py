@@ -10,14 +10,14 @@ import numpy as np
 
 from ._arrays import (at, components, copied, fit, indices, integers, pairs_of, per_pair, reals,
                       stiffness)
-from ._call import Call
+from ._call import NAMES, OF_MODELS, Call
 from ._constants import START_PREVIOUS, Law, ModelKind, Status, member
 from ._equations import Equations
 from ._law import Friction
 from ._library import Owner, Remade, SignoriniError, check, library
 from ._meshes import check_owners, pair_meshes
 from ._operator import HostFunctions
-from ._results import Enclosure, Output, certified
+from ._results import Enclosure, Output, Result, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
@@ -92,7 +92,7 @@ class Model(Remade):
         if settings is None:
             check(self._functions, function(*arguments, ctypes.byref(handle)))
         else:
-            call = Call(self._functions, settings)
+            call = Call(self._functions, settings, names=OF_MODELS)
             status, message = call.run(function, *arguments, call.at(), ctypes.byref(handle))
             if status != 0:
                 raise SignoriniError(message, member(Status, status))
@@ -305,6 +305,11 @@ class Model(Remade):
         settings: a dict of those of sparse, such as {"full_space": True} or {"equations": ...}.
         slave, master, slave_faces, master_faces and the rest: as for pair_meshes.
         """
+        misplaced = [name for name in pairing if name in (*NAMES, "progress", "equations", "order")]
+        if misplaced:
+            raise TypeError(f"{misplaced[0]} is a setting of the model: give settings={{{misplaced[0]!r}: ...}}")
+        if isinstance(K, (tuple, list)) and any(hasattr(one, "tocsc") for one in K) and len(K) != 2:
+            raise ValueError(f"K is {len(K)} matrices: give one of all nodes, or two, of the slave's mesh and the master's")
         held = _held(supports(fixed), (settings or {}).get("equations"))
         contact = pair_meshes(slave, master, slave_faces=slave_faces, master_faces=master_faces, fixed=held, **pairing)
         parts = K if isinstance(K, (tuple, list)) and len(K) == 2 else [K]
@@ -388,6 +393,8 @@ class Model(Remade):
 
     def with_contact(self, result):
         """A result of this model that was unpickled or copied, with the contact of the model again, for zone, table and plot."""
+        if not isinstance(result, Result):
+            raise TypeError(f"result is a {type(result).__name__}: give one Result, of several cases each by itself")
         if np.shape(result.d) != (self.pairs, self.dim):
             raise ValueError(f"result.d has the shape {np.shape(result.d)}: give a result of this model, {(self.pairs, self.dim)}")
         second = result.second and self.with_contact(result.second)

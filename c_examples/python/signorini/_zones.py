@@ -160,6 +160,8 @@ class Zones(Remade):
         if not isinstance(values, dict):
             return values
         self._check(what, values)
+        if what == "slip0":  # None of a zone: it has not slipped
+            values = {name: np.zeros((self.contacts[name].pairs, count)) if slip is None else slip for name, slip in values.items()}
         parts = [self._part(f"{what}[{name!r}]", values[name], contact.pairs, count, count == 1 or what == "slip0")
                  for name, contact in self.contacts.items()]
         if what == "slip0":
@@ -211,6 +213,8 @@ class Zones(Remade):
         The force of a pair of several zones is shared by areas, so that each has the pressure, and its motion is that from
         the gap of the zone, so that each has the clearance. It keeps its normal; tangents are those of the zone's own pair.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"zone is {name!r}: give the name of one zone")
         self._check("zone", {**dict.fromkeys(self.contacts), name: None})
         return self._of(result, name, self._all_gaps(result.gaps))
 
@@ -226,9 +230,10 @@ class Zones(Remade):
                 parts[field][shared] *= share[shared, None]
         if len(shared):
             frames, turn = self._leaning(contact, shared, self._frames[place[shared]])
-            for field in ("d", "F", "motion", "escape"):
+            bounds = dict.fromkeys(("radius_d", "radius_F"), abs(turn))
+            for field, by in {**dict.fromkeys(("d", "F", "motion", "escape"), turn), **bounds}.items():
                 if parts[field] is not None:
-                    parts[field][shared, 1:] = np.einsum("pij,pj->pi", turn, parts[field][shared, 1:])
+                    parts[field][shared, 1:] = np.einsum("pij,pj->pi", by, parts[field][shared, 1:])
             if parts["slip0"] is not None:
                 parts["slip0"][shared] = np.einsum("pij,pj->pi", turn, parts["slip0"][shared])
             with np.errstate(invalid="ignore"):
