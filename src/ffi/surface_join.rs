@@ -13,7 +13,6 @@ use super::surface::SignoriniFaces;
 use super::surface_fields::{pair_results, position_in};
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::law::State;
-use crate::problem::Law;
 use crate::surface::{ContactZone, Joined, join_zones};
 
 /// A contact zone for signorini_surface_join.
@@ -191,6 +190,9 @@ impl<'h> Zone<'h> {
         if !contact.zones.names.is_empty() {
             return at.refuse_part("its pairs are joined already: give those of each zone");
         }
+        if given.law == law::SIGNORINI_LAW_BY_PAIR {
+            return at.refuse_part("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone");
+        }
         // The numbers of a law stand in the structure too.
         let laws = ["law", "friction"].map(|name| at.named(name));
         let friction = law::read((laws[0], given.law), (laws[1], given.friction), 1)
@@ -201,9 +203,6 @@ impl<'h> Zone<'h> {
                  SIGNORINI_LAW_COULOMB, or NULL",
                 friction.law().title()
             ));
-        }
-        if Law::of_number(friction.law().number()).is_none() {
-            return at.refuse_part("law is SIGNORINI_LAW_BY_PAIR: give the law of the zone");
         }
         friction.check(contact.found.dim).or_else(|error| at.refuse_error(&error))?;
         let mut numbers = [friction.law().number(), 0.0, 0.0, 0.0];

@@ -122,7 +122,12 @@ static void check_zones(int32_t base)
     CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
     CHECK_TEXT(signorini_last_error(), "slave face 0 of zone 'again' is slave face 0 of zone 'A on B', and both");
     zones[1].law = SIGNORINI_LAW_BY_PAIR;
-    CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+    const double *friction = zones[1].friction;
+    for (int given = 0; given < 2; given++) {
+        zones[1].friction = given ? friction : NULL;
+        CHECK_STATUS(signorini_surface_join(2, zones, &joined), -2);
+        CHECK_TEXT(signorini_last_error(), "law is SIGNORINI_LAW_BY_PAIR: give the law of the zone");
+    }
     zones[1].contact = zone[1];
     for (int law = SIGNORINI_LAW_FRICTIONLESS; law <= SIGNORINI_LAW_TIED; law += SIGNORINI_LAW_TIED) {
         zones[1].law = law;
