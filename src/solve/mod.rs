@@ -22,7 +22,6 @@ mod sweeps;
 mod uniqueness;
 mod units;
 
-use crate::certificate::measure;
 use crate::error::{Argument, Error, Limit};
 use crate::law::Contact;
 use crate::monitor::{Monitor, Watch};
@@ -47,6 +46,7 @@ pub use result::{
     memory, memory_flexibility,
 };
 use rigid::Balance;
+use units::to_host;
 
 /// Solves a contact problem whose rows depend on each other, as [`solve()`] does another one. Contact forces
 /// are not unique then, nor is any solution called the only one.
@@ -201,20 +201,6 @@ fn solve_with_questions(call: &Call<'_>) -> Result<Solution, Error> {
     }
     plan::add_remarks(call, solution);
     found
-}
-
-/// A result in the host's units; `problem` is in those of the result.
-fn to_host<R: Relation>(
-    solution: Solution,
-    units: Units,
-    settings: &Settings,
-    problem: &ContactProblem<'_, R>,
-) -> Solution {
-    let contact = Contact::new(problem);
-    let certify = |d: &[f64], low: &[f64], force: &[f64]| {
-        measure(&contact, (d, low), force).with_rounding(settings.tolerance)
-    };
-    units::to_host(solution, units, settings.tolerance, certify)
 }
 
 /// A result with the remarks on its data and the count of its iterations.
