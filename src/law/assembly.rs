@@ -51,19 +51,8 @@ struct Equation {
     normal: usize,
 }
 
-/// `K dd` for a unit of an unknown.
-pub struct Image<'i> {
-    /// The components, each to be multiplied by `factor`.
-    entries: Cow<'i, [f64]>,
-    factor: f64,
-}
-
-impl<'i> Image<'i> {
-    /// The image with these components.
-    pub fn of(entries: impl Into<Cow<'i, [f64]>>) -> Self {
-        Image { entries: entries.into(), factor: 1.0 }
-    }
-}
+/// The components of `K dd` for a unit of an unknown, each to be multiplied by the factor.
+pub type Image<'i> = (Cow<'i, [f64]>, f64);
 
 impl<'s> Assembly<'s> {
     /// The coefficients for the `unknowns`, in the order of the components, of pairs of `dim` components with these
@@ -88,15 +77,15 @@ impl<'s> Assembly<'s> {
     pub fn image(&self, j: usize, from: usize) -> Image<'s> {
         let mut moved = self.moved(j);
         let Some((entries, factor)) = moved.next() else {
-            return Image::of(vec![0.0; self.matrix.size()]);
+            return (vec![0.0; self.matrix.size()].into(), 1.0);
         };
         let Some((others, part)) = moved.next() else {
-            return Image { entries: Cow::Borrowed(entries), factor };
+            return (entries.into(), factor);
         };
         let mut image = vec![0.0; self.matrix.size()];
         let sums = image[from..].iter_mut().zip(&entries[from..]).zip(&others[from..]);
         sums.for_each(|((sum, entry), other)| *sum = factor * entry + part * other);
-        Image::of(image)
+        (image.into(), 1.0)
     }
 
     /// As [`Self::image`], with `s K + (1 - s) k` in the place of `K`.
@@ -110,7 +99,7 @@ impl<'s> Assembly<'s> {
         let own = pairs[unknown.pair].scaled(&unknown.motion(self.slopes[unknown.pair]));
         let components = image[self.dim * unknown.pair..].iter_mut().take(self.dim);
         components.zip(own).for_each(|(sum, own)| *sum += (1.0 - s) * own);
-        Image::of(image)
+        (image.into(), 1.0)
     }
 
     /// The columns of `K` of the components that a unit of the unknown `j` moves, with the displacement of each.
@@ -124,11 +113,16 @@ impl<'s> Assembly<'s> {
     }
 
     /// Writes the coefficients of the unknown `j` in the equations from `first` on, by its image.
-    pub fn coefficients(&self, j: usize, first: usize, image: &Image<'_>, entries: &mut [f64]) {
-        let v = &*image.entries;
+    pub fn coefficients(
+        &self,
+        j: usize,
+        first: usize,
+        (v, factor): &Image<'_>,
+        entries: &mut [f64],
+    ) {
         for (entry, equation) in entries[first..].iter_mut().zip(&self.equations[first..]) {
             let left = v[equation.at] - equation.drag * v[equation.normal];
-            *entry = equation.scale * (image.factor * left);
+            *entry = equation.scale * (factor * left);
         }
         let unknown = &self.unknowns[j];
         let Some(own) = unknown.component.checked_sub(1) else { return };
