@@ -59,15 +59,22 @@ pub enum Start {
 /// Without friction: methods of linear complementarity first, which end where Newton's method and the path give up.
 const WITHOUT_FRICTION: [&MethodRow; 5] = [&BLOCK_PIVOTING, &LEMKE, &NEWTON, &PATH, &NESTED_SWEEPS];
 
-/// With friction in the plane: the fastest method first. The path has the guarantee, by theorem K where contact alone
-/// holds a body too. It starts where sweeps end and takes far fewer events than Lemke's method takes pivots on most
-/// problems: behind a solution of negative orientation that takes up to eight times as long. Lemke's method may end where
-/// rounding spoils all starts of the path, or where a body without supports leaves it on a ray that proves nothing.
-/// Springs come after both: where the problem with `K` is hard for Newton's method, so are those with springs; a body on
-/// rollers with 513 pairs takes 330 systems of springs where the path takes 30.
-const IN_PLANE: [&MethodRow; 9] = [
+/// With friction: the fastest method first.
+///
+/// In the plane the path has the guarantee, by theorem K where contact alone holds a body too. It starts where sweeps end
+/// and takes far fewer events than Lemke's method takes pivots on most problems: behind a solution of negative orientation
+/// that takes up to eight times as long. Lemke's method may end where rounding spoils all starts of the path, or where a
+/// body without supports leaves it on a ray that proves nothing. Springs come after both: where the problem with `K` is hard
+/// for Newton's method, so are those with springs; a body on rollers with 513 pairs takes 330 systems of springs where the
+/// path takes 30.
+///
+/// In space the path proves nothing where contact alone holds a body, so that springs come before it, by Newton's method.
+/// Where that fails on springs, the path on `K` ends with a solution in most cases, for a tenth of the systems of paths on
+/// one problem with springs after the other: those come last.
+const WITH_FRICTION: [&MethodRow; 10] = [
     &NEWTON,
     &BALANCE,
+    &SPRINGS_IN_SPACE,
     &PATH_FROM_BEST,
     &LEMKE,
     &PATH,
@@ -77,28 +84,10 @@ const IN_PLANE: [&MethodRow; 9] = [
     &SWEEPS_FROM_BEST,
 ];
 
-/// With friction in space: the path proves nothing where contact alone holds a body, so that springs come before it, by
-/// Newton's method. Where that fails on springs, the path on `K` ends with a solution in most cases, for a tenth of the
-/// systems of paths on one problem with springs after the other: those come last.
-const IN_SPACE: [&MethodRow; 9] = [
-    &NEWTON,
-    &BALANCE,
-    &SPRINGS,
-    &PATH_FROM_BEST,
-    &PATH,
-    &SPRINGS_BY_PATH,
-    &NESTED_SWEEPS,
-    &DIAGONAL_SWEEPS,
-    &SWEEPS_FROM_BEST,
-];
-
 /// The methods of a problem that leaves the choice to the library, in turn: all that fit.
 pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static MethodRow> {
-    let rows: &[&MethodRow] = match (contact.is_frictionless(), contact.dim()) {
-        (true, _) => &WITHOUT_FRICTION,
-        (false, 2) => &IN_PLANE,
-        _ => &IN_SPACE,
-    };
+    let rows: &[&MethodRow] =
+        if contact.is_frictionless() { &WITHOUT_FRICTION } else { &WITH_FRICTION };
     rows.iter().copied().filter(|row| (row.refuses)(contact).is_none())
 }
 
@@ -107,7 +96,8 @@ pub fn plan(contact: &Contact<'_>) -> impl Iterator<Item = &'static MethodRow> {
 /// # Errors
 /// A method that does not fit the problem.
 pub fn chosen(contact: &Contact<'_>, method: Method) -> Result<Option<&'static MethodRow>, Error> {
-    let row = WITHOUT_FRICTION.iter().chain(&IN_PLANE).find(|row| row.method == method).copied();
+    let row =
+        WITHOUT_FRICTION.iter().chain(&WITH_FRICTION).find(|row| row.method == method).copied();
     match row.and_then(|row| (row.refuses)(contact)) {
         Some(message) => Err(Error::invalid(Argument::Settings, message)),
         None => Ok(row),
@@ -154,16 +144,16 @@ const BALANCE: MethodRow = MethodRow {
 };
 
 /// Springs that are let go, where contact alone holds a body.
-const SPRINGS: MethodRow = MethodRow {
+const SPRINGS_IN_SPACE: MethodRow = MethodRow {
     method: Method::Newton,
     name: "springs",
     start: Start::Best,
     refuses: unsymmetric,
-    run: |call| springs(call, false),
+    run: |call| if call.contact.dim() == 2 { Ok(None) } else { springs(call, false) },
 };
 
 const SPRINGS_BY_PATH: MethodRow =
-    MethodRow { name: "springs by the path", run: |call| springs(call, true), ..SPRINGS };
+    MethodRow { name: "springs by the path", run: |call| springs(call, true), ..SPRINGS_IN_SPACE };
 
 fn springs(call: &Call<'_>, by_path: bool) -> Result<Option<Candidate>, Error> {
     let Some(balance) = Balance::new(call.contact, call.monitor) else { return Ok(None) };
@@ -193,16 +183,13 @@ const BLOCK_PIVOTING: MethodRow = MethodRow {
     name: "block pivoting",
     start: Start::Own,
     refuses: |contact| {
-        let law = || contact.problem().law().frictionless_if();
-        let with_friction = || {
-            (!contact.is_frictionless()).then(|| {
-                format!(
-                    "settings: block pivoting is for frictionless contact: the law must be frictionless, or {}",
-                    law()
-                )
-            })
+        let message = || {
+            let law = contact.problem().law().frictionless_if();
+            format!(
+                "settings: block pivoting is for frictionless contact: the law must be frictionless, or {law}"
+            )
         };
-        unsymmetric(contact).or_else(with_friction)
+        unsymmetric(contact).or_else(|| (!contact.is_frictionless()).then(message))
     },
     run: |call| {
         let of_one_pair = newton::of_one_pair(call);
