@@ -80,8 +80,10 @@ impl Amended {
         goes_on: GoesOn<'_>,
     ) -> Option<()> {
         let terms = self.terms(equations.dim, &pairs);
-        let [rows, coordinates, matrix] =
-            self.change.take().map_or_else(Default::default, Change::into_memory);
+        // The memory of the change before.
+        let before = self.change.take();
+        let memory = |change: Change| [change.changed.rows, change.coordinates, change.matrix];
+        let [rows, coordinates, matrix] = before.map_or_else(Default::default, memory);
         if terms.is_empty() {
             return Some(());
         }
@@ -205,13 +207,6 @@ impl Amended {
             return none;
         }
         before.iter().zip(&now).map(|(before, now)| before | now).collect()
-    }
-}
-
-impl Change {
-    /// The memory of rows, coordinates and the matrix, for the next change.
-    fn into_memory(self) -> [Vec<f64>; 3] {
-        [self.changed.rows, self.coordinates, self.matrix]
     }
 }
 

@@ -25,13 +25,11 @@ pub fn step<R: Relation>(
     Means { settings, solve, monitor }: Means<'_>,
 ) -> Result<Solution, Error> {
     let dim = problem.dim();
-    let gap: Vec<f64> =
-        (0..problem.pairs()).map(|pair| problem.gap(pair) - d[dim * pair]).collect();
-    let slip = |i: usize| {
-        let (pair, component) = (i / (dim - 1), i % (dim - 1));
-        problem.reference_slip(pair, component) - d[dim * pair + 1 + component]
-    };
-    let slip: Vec<f64> = (0..(dim - 1) * gap.len()).map(slip).collect();
+    let pairs = 0..problem.pairs();
+    let gap: Vec<f64> = pairs.clone().map(|pair| problem.gap(pair) - d[dim * pair]).collect();
+    let slips =
+        |pair| (1..dim).map(move |c| problem.reference_slip(pair, c - 1) - d[dim * pair + c]);
+    let slip: Vec<f64> = pairs.flat_map(slips).collect();
     let law = problem.law();
     let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
     let contact = &Contact::new(&problem);
