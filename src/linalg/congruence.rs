@@ -7,7 +7,7 @@
 
 use super::sparse_matrix::{
     Columns, Csc, OutOfMemory, absolute, both, diagonals, entries, entries_of, from_entries,
-    product, scale_diagonal, transposed, value_at,
+    product, product_without_rounding, scale_diagonal, transposed, value_at, whole,
 };
 use super::tolerances::ROUNDING;
 use super::watched::GoesOn;
@@ -54,6 +54,38 @@ pub fn congruence(
         below.end_column();
     }
     Ok(Some((leading.matrix(columns), below.matrix(w.ncols() - columns))))
+}
+
+/// The lower triangle of `Eᵀ A E`, where `E` gives dependents from all others; `None` where `goes_on` says no. `lower` is the lower
+/// triangle of the symmetric `A`.
+///
+/// Where dependents are one rigid body, its motions have no force on any of them but by what joins it to others. Forces `A E`
+/// that are rounding become zero one by one, whatever other springs the body has: no combination of its motions meets them.
+pub fn without_dependents(
+    lower: &Csc,
+    e: &Csc,
+    goes_on: GoesOn<'_>,
+) -> Result<Option<Csc>, OutOfMemory> {
+    let forces = product_without_rounding(&whole(lower)?, e)?;
+    if !goes_on() {
+        return Ok(None);
+    }
+    let found = product(&transposed(e)?, &forces)?;
+    drop(forces);
+    if !goes_on() {
+        return Ok(None);
+    }
+    // The mean of both triangles: what rounding is left in a force does no work on motions that do not move its node.
+    let mirrored = transposed(&found)?;
+    let mut mean = Columns::with_capacity(found.compute_nnz())?;
+    for j in 0..found.ncols() {
+        for (i, one, other) in both(&found, &mirrored, j, j) {
+            mean.row.push(i);
+            mean.values.push(one.midpoint(other));
+        }
+        mean.end_column();
+    }
+    Ok(Some(mean.matrix(found.nrows())))
 }
 
 /// The columns of `W` that `A` resists with no more than rounding.

@@ -143,6 +143,21 @@ pub fn each_of_symmetric(lower: &Csc, mut visit: impl FnMut(usize, usize, f64)) 
     }
 }
 
+/// Both triangles of the symmetric matrix whose lower triangle is `lower`.
+pub fn whole(lower: &Csc) -> Result<Csc, OutOfMemory> {
+    let upper = transposed(lower)?;
+    let mut all = Columns::with_capacity(lower.compute_nnz() + upper.compute_nnz())?;
+    for j in 0..lower.ncols() {
+        let above = entries_of(&upper, j).filter(|(i, _)| *i < j);
+        for (i, value) in above.chain(entries_of(lower, j)) {
+            all.row.push(i);
+            all.values.push(value);
+        }
+        all.end_column();
+    }
+    Ok(all.matrix(lower.nrows()))
+}
+
 /// `A x` of the symmetric matrix whose lower triangle is `lower`.
 pub fn symmetric_times(lower: &Csc, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; x.len()];

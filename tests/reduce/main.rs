@@ -17,6 +17,7 @@ mod general_rows;
 mod motion_words;
 mod reductions;
 mod rigid_bodies;
+mod rigid_bodies_on_springs;
 mod soft_springs;
 mod sparse_condensation;
 mod sparse_contact;

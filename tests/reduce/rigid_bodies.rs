@@ -6,7 +6,7 @@ use fastrand::Rng;
 use signorini::{Error, FrictionLaw, LoadCase, Monitor, Settings, Status};
 
 /// Equations of a node of a plane rigid body at the arm `r`: `u = U + theta x r`, its motion from degree of freedom `first` on.
-fn rigid(node: usize, [x, y]: [f64; 2], first: usize) -> [(usize, Terms); 2] {
+pub fn rigid(node: usize, [x, y]: [f64; 2], first: usize) -> [(usize, Terms); 2] {
     [
         (2 * node, vec![(first, 1.0), (first + 2, -y)]),
         (2 * node + 1, vec![(first + 1, 1.0), (first + 2, x)]),
@@ -19,7 +19,7 @@ fn row(node: usize) -> Vec<(usize, Vec<f64>)> {
 }
 
 /// Adds `k v vᵀ`.
-fn add_spring(stiffness: &mut [f64], k: f64, v: &[f64]) {
+pub fn add_spring(stiffness: &mut [f64], k: f64, v: &[f64]) {
     let size = (0..).find(|n| n * n == stiffness.len()).unwrap();
     for (j, b) in v.iter().enumerate() {
         v.iter().enumerate().for_each(|(i, a)| stiffness[i + size * j] += k * a * b);

@@ -11,7 +11,7 @@
 //! condensed the spring becomes as stiff as the other components of its pair.
 
 use super::supports::FixedComponent;
-use crate::linalg::congruence::congruence;
+use crate::linalg::congruence::{congruence, without_dependents};
 use crate::linalg::row_elimination::{Expression, Terms};
 use crate::linalg::sparse_matrix::{
     Csc, OutOfMemory, from_columns, from_entries, product_without_rounding, times, transpose_times,
@@ -92,8 +92,7 @@ impl ChangeOfVariables {
         let mut host = with_springs(host, self.springs);
         let goes_on = &mut || progress(0.0).is_ok();
         if let Some(equations) = &self.equations {
-            let all = equations.ncols();
-            (host, _) = congruence(host, equations, all, goes_on)?.ok_or(Failure::Stopped)?;
+            host = without_dependents(&host, equations, goes_on)?.ok_or(Failure::Stopped)?;
         }
         congruence(host, &self.matrix, self.unknowns, goes_on)?.ok_or(Failure::Stopped)
     }
