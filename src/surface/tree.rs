@@ -84,8 +84,8 @@ impl<'a> Tree<'a> {
     /// Looks behind the box of a branch for the first time.
     fn open(&mut self, place: usize) -> Inside {
         let Branch { bounds, faces, .. } = &self.branches[place];
-        let faces = faces.clone();
-        let is_deep = self.are_deep(&self.order[faces.clone()], bounds);
+        let (faces, across) = (faces.clone(), bounds.diagonal());
+        let is_deep = self.are_deep(&self.order[faces.clone()], across);
         let mut walls =
             if is_deep { self.walls(&self.order[faces.clone()]) } else { [Wall::default(); 2] };
         if self.has_hubs && is_deep {
@@ -112,11 +112,11 @@ impl<'a> Tree<'a> {
         inside
     }
 
-    /// True if boxes of faces lie over each other more often than a leaf has faces, in the mean over the box of all: those of
-    /// needles that lean do, and of layers.
-    fn are_deep(&self, faces: &[usize], bounds: &Bounds) -> bool {
+    /// True if boxes of faces lie over each other more often than a leaf has faces, in the mean over the box of all, which is so far
+    /// `across`: those of needles that lean do, and of layers.
+    fn are_deep(&self, faces: &[usize], across: f64) -> bool {
         let areas = faces.iter().map(|&at| self.boxes[at].diagonal().powi(2));
-        areas.sum::<f64>() > LEAF as f64 * bounds.diagonal().powi(2)
+        areas.sum::<f64>() > LEAF as f64 * across * across
     }
 
     /// The two walls of faces: of the edges of some of them, whose lengths are their sizes, that beyond which these reach least,
