@@ -2,7 +2,7 @@
 //!
 //! A face between nodes of a curved surface stands off it by a sagitta. On an edge the normals at its ends, the means of all faces
 //! there, tell it by how far they are inclined to the face: a parabola whose slopes at the ends of a chord are `t` stands off by `t / 6`
-//! of the chord in the mean, a quartic that meets the middle too by `t / 30`. A face stands off by the mean of its edges along each
+//! of the chord in the mean, a quartic that meets the middle too by `t / 30`. A mid node that lies on the chord does not meet it. A face stands off by the mean of its edges along each
 //! direction, which a triangle and a quadrilateral have alike: half the sum over all edges. Equal facets of both sides cancel, as
 //! one is hollow.
 
@@ -103,10 +103,17 @@ fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 
         // A face that is bent at one end alone is flat, beside an edge of the body.
         let [a, b] = [fall(at, &along), -fall(next, &along)];
         let least = if a * b > 0.0 { 4.0 * a.abs().min(b.abs()) } else { 0.0 };
-        (a + b).clamp(-least, least)
+        let turn = (a + b).clamp(-least, least);
+        // A parabola with these slopes at its ends stands off by an eighth of their sum in the middle. A mid node that stands off the
+        // chord by less than half of it is not on the surface: the mean of both normals has half the length of their sum.
+        let meets = face.kind.mids().any(|(mid, ends)| {
+            let off = face.x[mid] - 0.5 * (face.x[at] + face.x[next]);
+            let off = off.dot(&(own[at] + own[next])).abs();
+            ends.contains(&at) && ends.contains(&next) && off >= 0.125 * turn.abs()
+        });
+        turn / if meets { 60.0 } else { 12.0 }
     };
-    let of_chord = if face.kind.mids().next().is_some() { 60.0 } else { 12.0 };
-    0.5 * face.kind.edges().map(of_edge).sum::<f64>() / of_chord
+    0.5 * face.kind.edges().map(of_edge).sum::<f64>()
 }
 
 /// Number of pairs at which facets change an interference by more than it allows, and the most by which they do; `None`: these

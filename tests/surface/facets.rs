@@ -89,6 +89,41 @@ fn facets_change_an_interference_by_what_arcs_stand_off_them() {
     }
 }
 
+/// Mid nodes on the chords leave the polygon what it is: what is told of it is that of faces without them, to rounding.
+#[test]
+fn mid_nodes_on_chords_are_told_as_the_polygon_that_they_lie_on() {
+    let on_chords = |(mut nodes, faces): Line| {
+        let first = nodes.len();
+        let mid = |face: &Vec<usize>| {
+            let [a, b] = [nodes[face[0]], nodes[face[1]]];
+            [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0]
+        };
+        let mids: Vec<[f64; 3]> = faces.iter().map(mid).collect();
+        nodes.extend(mids);
+        let with_mid = |(i, face): (usize, Vec<usize>)| vec![face[0], face[1], first + i];
+        (nodes, faces.into_iter().enumerate().map(with_mid).collect())
+    };
+    for divisions in [[24, 31], [40, 13], [64, 150], [240, 200]] {
+        let [own, opposite] = divisions.map(|count| off(count, false));
+        let change = (own - opposite).abs();
+        let sides = divisions.map(|count| circle(count, (1.0, 0.0), 0.1 / count as f64, false));
+        for (part, inner_is_slave) in [(0.5, true), (1.0, false), (5.0, true), (40.0, true)] {
+            let settings = SurfaceSettings { clearance: -part * change, ..Default::default() };
+            let told = |[inner, outer]: [Line; 2]| {
+                let found = in_hole(inner, outer, inner_is_slave, &settings);
+                found.report.large_facets.map(|(_, most)| most)
+            };
+            let [plain, with_mids] = [sides.clone(), sides.clone().map(on_chords)].map(told);
+            let context = format!("{divisions:?} {part}: {plain:?}, {with_mids:?}");
+            assert_eq!(plain.is_some(), part < 10.0, "{context}");
+            assert_eq!(plain.is_some(), with_mids.is_some(), "{context}");
+            let error = (plain.unwrap_or(0.0) - with_mids.unwrap_or(0.0)).abs();
+            // Slopes have the rounding of coordinates of 1 on a face.
+            assert!(error < 1e-14 * divisions[0].max(divisions[1]) as f64, "{context}");
+        }
+    }
+}
+
 /// Facets of one length change nothing, turned or not, and neither do those of exact shapes. A loose body that touches is none with an interference.
 #[test]
 fn facets_that_cancel_or_are_loose_are_not_told() {
