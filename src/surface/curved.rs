@@ -124,6 +124,35 @@ impl Curved {
         near.or_else(|| self.newton(p, self.centre))
     }
 
+    /// [`Curved::local`] of a point on the face or around it. Polynomials turn back beyond it, and lead to a point on another sheet:
+    /// there the face goes on with the derivatives that it has at the nearest of its points.
+    pub(super) fn local_around(
+        &self,
+        p: Point,
+        corners: &Bilinear,
+        kind: FaceKind,
+    ) -> Option<Local> {
+        let is_on_sheet = |at: &Local| {
+            let nearest = kind.nearest(*at);
+            let beyond = (at[0] - nearest[0]).abs().max((at[1] - nearest[1]).abs());
+            beyond == 0.0 || beyond < 1.0 && self.area(*at) * self.area(self.centre) > 0.0
+        };
+        self.local(p, corners).filter(is_on_sheet).or_else(|| {
+            let mut at = corners.local(p).unwrap_or(self.centre);
+            for _ in 0..STEPS {
+                at = kind.nearest(at);
+                self.step(p, &mut at);
+            }
+            (at[0].is_finite() && at[1].is_finite()).then_some(at)
+        })
+    }
+
+    /// The area of a unit of local coordinates in the plane.
+    fn area(&self, at: Local) -> f64 {
+        let [a, b] = self.slopes(at);
+        a.x * b.y - b.x * a.y
+    }
+
     fn newton(&self, p: Point, mut at: Local) -> Option<Local> {
         (0..STEPS).any(|_| self.step(p, &mut at)).then_some(at)
     }

@@ -211,9 +211,7 @@ impl<'a> SlaveFace<'a> {
             let straight = || [0.5 * (p[0] + next[0]), 0.5 * (p[1] + next[1])];
             let middle = on_curve.map_or_else(straight, |[_, between, _]| *between);
             for p in [Some(p), halve.then_some(middle)].into_iter().flatten() {
-                // Beyond a curved face on that which the corners span, if there is no other.
-                let at = self.flat.local(p).or_else(|| self.flat.corners.local(p))?;
-                mapped.push(self.straight.place(at));
+                mapped.push(self.straight.place(self.flat.local_around(p)?));
             }
         }
         if self.face.kind.is_line() {

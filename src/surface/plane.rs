@@ -148,6 +148,13 @@ impl<'a> Flat<'a> {
         }
     }
 
+    /// [`Flat::local`] of a point on the face or around it: beyond a curved one, if there are none, on that which the corners span.
+    pub(super) fn local_around(&self, p: Point) -> Option<Local> {
+        let curved = self.curved.as_ref();
+        let own = curved.and_then(|it| it.local_around(p, &self.corners, self.face.kind));
+        own.or_else(|| self.corners.local(p))
+    }
+
     /// [`Flat::local`] of all points of a block, in their places.
     #[inline(always)]
     pub(super) fn locals(&self, points: &mut [Block; 2], count: usize) -> Option<()> {

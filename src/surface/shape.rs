@@ -106,6 +106,16 @@ impl FaceKind {
         s.abs().max(t.abs()) <= 1.0 + BEYOND
     }
 
+    /// The local coordinates of a point of the face that are nearest to some.
+    pub(super) fn nearest(self, [s, t]: Local) -> Local {
+        if !self.is_triangle() {
+            return [s, t].map(|c| c.clamp(-1.0, 1.0));
+        }
+        let beyond = 0.5 * (s + t - 1.0).max(0.0);
+        let s = (s - beyond).clamp(0.0, 1.0);
+        [s, if beyond > 0.0 { 1.0 - s } else { t.clamp(0.0, 1.0) }]
+    }
+
     /// The kind with this number of nodes.
     pub(super) fn of(dim: usize, nodes: usize) -> Option<FaceKind> {
         let kinds: &[FaceKind] = if dim == 2 { &[Line2, Line3] } else { &[T3, Q4, T6, Q8, Q9] };

@@ -98,3 +98,78 @@ fn masters_over_each_other_by_a_hundredth_are_named() {
     let message = pair_with([0.505, 0.495]).unwrap_err().message().to_string();
     assert!(message.contains("lie over each other"), "{message}");
 }
+
+/// Places of a flat face with eight or nine nodes: Lagrange's parabolas along both directions, of which eight have no part `s² t²`.
+fn place(x: &[[f64; 3]], [s, t]: [f64; 2]) -> [f64; 2] {
+    let parabola = |c: f64| [0.5 * c * (c - 1.0), 1.0 - c * c, 0.5 * c * (c + 1.0)];
+    let (along, across) = (parabola(s), parabola(t));
+    let order = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]];
+    [0, 1].map(|c| {
+        let sum = |nodes: &[[f64; 3]]| nodes.iter().map(|x| x[c]).sum::<f64>();
+        let middle = x.get(8).map_or_else(|| 0.5 * sum(&x[4..8]) - 0.25 * sum(&x[..4]), |x| x[c]);
+        let value = |node: usize| if node < 8 { x[node][c] } else { middle };
+        let part = |(node, [i, j]): (usize, &[usize; 2])| value(node) * along[*i] * across[*j];
+        order.iter().enumerate().map(part).sum()
+    })
+}
+
+/// A fine division of a face: the middles of its cells and their areas.
+fn cells(x: &[[f64; 3]], count: usize) -> Vec<([f64; 2], f64)> {
+    let at = |i: f64, j: f64| place(x, [i, j].map(|c| 2.0 * c / count as f64 - 1.0));
+    let cell = |k: usize| {
+        let [i, j] = [k % count, k / count].map(|c| c as f64);
+        let [a, b, c, d] = [at(i, j), at(i + 1.0, j), at(i + 1.0, j + 1.0), at(i, j + 1.0)];
+        let [e, f] = [[c[0] - a[0], c[1] - a[1]], [d[0] - b[0], d[1] - b[1]]];
+        (at(i + 0.5, j + 0.5), 0.5 * (e[0] * f[1] - e[1] * f[0]))
+    };
+    (0..count * count).map(cell).collect()
+}
+
+/// A flat face whose nodes lie anywhere near those of a square, as far as no part of it is thin, under masters on either side of
+/// a line. Corners of masters lie beyond its curved edges, where its polynomials turn back. Nodes that are off by `d` bend a line in
+/// local coordinates by less than `2 d`, of which two straight ones in its place leave a quarter, on a length of a diagonal.
+#[test]
+fn distorted_faces_are_halved_by_any_line() {
+    let rng = &mut Rng::with_seed(20);
+    let settings = SurfaceSettings { rims: Rims::Keep, ..Default::default() };
+    let (mut faces, off_by) = (0, 0.1);
+    while faces < 400 {
+        let shape = [Shape::Q8, Shape::Q9][faces % 2];
+        let mut slave = Sheet::rectangle(shape, [1, 1], [[-0.5, 0.5]; 2], (0.0, rng));
+        for x in &mut slave.nodes {
+            let mut moved = || off_by * (2.0 * rng.f64() - 1.0);
+            *x = [x[0] + moved(), x[1] + moved(), 0.0];
+        }
+        let own: Vec<[f64; 3]> = slave.faces[0].iter().map(|node| slave.nodes[*node]).collect();
+        let cells = cells(&own, 100);
+        let (least, most) = cells.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), cell| {
+            (least.min(cell.1), most.max(cell.1))
+        });
+        if least < 0.25 * most {
+            continue;
+        }
+        faces += 1;
+        // The masters have corners on all sides of the line, some of them near the face.
+        let (sin, cos) = (7.0 * rng.f64()).sin_cos();
+        let [off, from, to] = [0.4, 0.6, 0.6].map(|part| part * rng.f64());
+        let turned = |[x, y, z]: [f64; 3]| [cos * x - sin * y, sin * x + cos * y, z];
+        let half = |ends: [f64; 2]| {
+            let along = [-0.4 - from, 0.4 + to];
+            Sheet::rectangle(Shape::Q4, [1, 1], [ends, along], (0.0, &mut Rng::with_seed(1)))
+                .mapped(turned)
+        };
+        let inside = |ends: [f64; 2]| {
+            let is_in = |[x, y]: &[f64; 2]| {
+                let [x, y] = [cos * x + sin * y, cos * y - sin * x];
+                ends[0] <= x && x <= ends[1] && -0.4 - from <= y && y <= 0.4 + to
+            };
+            cells.iter().filter(|(at, _)| is_in(at)).map(|(_, area)| area).sum::<f64>()
+        };
+        for ends in [[-1.0, off], [off, 1.0]] {
+            let sheets = TwoSheets::new(3, slave.clone().turned(), half(ends));
+            let found = sheets.pair(&settings).unwrap();
+            let miss = (found.report.covered_area - inside(ends)).abs();
+            assert!(miss < 0.5 * off_by * 2.0_f64.sqrt(), "{shape:?}, {faces}: {miss:e}");
+        }
+    }
+}
