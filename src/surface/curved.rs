@@ -137,14 +137,16 @@ impl Curved {
             let beyond = (at[0] - nearest[0]).abs().max((at[1] - nearest[1]).abs());
             beyond == 0.0 || beyond < 1.0 && self.area(*at) * self.area(self.centre) > 0.0
         };
-        self.local(p, corners).filter(is_on_sheet).or_else(|| {
-            let mut at = corners.local(p).unwrap_or(self.centre);
-            for _ in 0..STEPS {
-                at = kind.nearest(at);
-                self.step(p, &mut at);
-            }
-            (at[0].is_finite() && at[1].is_finite()).then_some(at)
-        })
+        let found = self.local(p, corners)?;
+        if is_on_sheet(&found) {
+            return Some(found);
+        }
+        let mut at = corners.local(p).unwrap_or(self.centre);
+        for _ in 0..STEPS {
+            at = kind.nearest(at);
+            self.step(p, &mut at);
+        }
+        at.iter().all(|c| c.is_finite()).then_some(at)
     }
 
     /// The area of a unit of local coordinates in the plane.
