@@ -106,10 +106,11 @@ fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 
         let turn = (a + b).clamp(-least, least);
         // A parabola with these slopes at its ends stands off by an eighth of their sum in the middle. A mid node that stands off the
         // chord by less than half of it is not on the surface: the mean of both normals has half the length of their sum.
+        let sagitta = turn.abs() / 8.0;
         let meets = face.kind.mids().any(|(mid, ends)| {
             let off = face.x[mid] - 0.5 * (face.x[at] + face.x[next]);
             let off = off.dot(&(own[at] + own[next])).abs();
-            ends.contains(&at) && ends.contains(&next) && off >= 0.125 * turn.abs()
+            ends.contains(&at) && ends.contains(&next) && off >= sagitta
         });
         turn / if meets { 60.0 } else { 12.0 }
     };
