@@ -164,7 +164,7 @@ pub(super) fn measure_pair<R: Relation>(
         true => load.max(relation.size_of_force(&raw)),
         false => f64::INFINITY,
     };
-    let unloaded = norm_inf(contact.load_with_tension()) == 0.0;
+    let pulled = norm(contact.load_with_tension());
     let natural = Natural::new(contact, (d, low), &raw);
     let size = natural.size.root().hypot(norm(residual)).hypot(norm(inner));
     let inherent = UNIT * terms.inherent;
@@ -176,7 +176,7 @@ pub(super) fn measure_pair<R: Relation>(
     let doubt = natural.doubt.root() + natural.sensitivity * products;
     // Those of one component of the residual, of its norm and of the quotient.
     let upper = ratio((size + doubt) * (1.0 + FEW_OPERATIONS), scale);
-    let hidden = ratio(UNIT * terms.rest + if unloaded { 0.0 } else { inherent }, scale);
+    let hidden = ratio(UNIT * terms.rest + if pulled == 0.0 { 0.0 } else { inherent }, scale);
     let rounding = ratio(natural.sensitivity * (UNIT * terms.rest + inherent), scale);
     let determines = residual.is_empty() && inner.is_empty();
     let is_resisted = hidden > ROUNDING_LIMIT && determines && is_resisted(relation, d, &raw);
@@ -194,7 +194,7 @@ pub(super) fn measure_pair<R: Relation>(
         hidden,
         is_resisted,
         underflows: underflow > UNIT * scale.max(norm(&terms.each)),
-        hides_loads: size > load && !unloaded && terms.inherent == 0.0,
+        hides_loads: pulled > 0.0 && size > load.max(pulled) && terms.inherent == 0.0,
         penetration,
         tension,
         cone_excess,

@@ -213,14 +213,14 @@ pub struct SignoriniPenetration {
 
 /// Checks after a solution if parts of the slave's surface have passed through the master or the
 /// obstacle where no pair holds them, such as faces beyond the search distance. Faces that lie
-/// wholly over master faces of at least half their size, and all of whose nodes have pairs, are
-/// left to these and not looked at; where some nodes of a face have pairs, or are folded, these
-/// may pass by a tenth of its size. Nodes of a master that come to lie over the faces that are
-/// looked at are looked at too; where some nodes of the slave face have pairs, they may pass by a
-/// tenth of the size of the smaller face. What overlaps before the motion has not passed through
-/// by it, and is not counted: data.beyond has the faces that do, by more than was looked at. A
-/// clearance of the settings stands between the surfaces here too. A point that has passed
-/// through the whole of a shape, as a bar, and is outside again is not found.
+/// wholly over master faces of at least half their size, and all of whose nodes have pairs that
+/// slide by less than a tenth of the face, are left to these and not looked at; where some nodes of
+/// a face have pairs, or are folded, these may pass by a tenth of its size. Nodes of a master that
+/// come to lie over the faces that are looked at are looked at too; where some nodes of the slave
+/// face have pairs, they may pass by a tenth of the size of the smaller face. What overlaps before
+/// the motion has not passed through by it, and is not counted: data.beyond has the faces that do,
+/// by more than was looked at. A clearance of the settings stands between the surfaces here too. A
+/// point that has passed through the whole of a shape, as a bar, and is outside again is not found.
 ///
 /// @param contact      the pairs; of joined ones each zone is asked, points are those of all
 /// @param u            displacements of all your degrees of freedom, as signorini_model_recover

@@ -2,6 +2,7 @@
 
 use super::{Bound, Ellipse};
 use crate::linalg::ball::Ball;
+use crate::linalg::tolerances::ROUNDING;
 
 /// A vector of a pair: normal and up to two tangential components.
 pub type Vector = [f64; 3];
@@ -120,9 +121,10 @@ impl PairLaw {
     }
 
     /// Largest displacement that contact itself has prescribed to the pair at `d_n`: by a gap that has
-    /// closed and by an earlier slip.
+    /// closed but for rounding, and by an earlier slip.
     pub fn prescribed(&self, d_n: f64) -> f64 {
-        let gap = if self.touches(d_n) { self.gap.abs() } else { 0.0 };
+        let size = if self.has_obstacle() { self.gap.abs() } else { 0.0 };
+        let gap = if self.touches(d_n + ROUNDING * size) { size } else { 0.0 };
         gap.max(self.slip0[0].abs()).max(self.slip0[1].abs())
     }
 }

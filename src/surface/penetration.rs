@@ -2,7 +2,7 @@
 //! pair.
 //!
 //! A moved point of the slave has passed through a moved master if that lies behind it along its normal before the motion,
-//! and the same point of the master was not behind it before. What was, as layers behind each other are and surfaces that overlap
+//! and the same point of the master was not behind it before, or it behind that point. What was, as layers behind each other are and surfaces that overlap
 //! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
 //! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
 //!
@@ -10,10 +10,14 @@
 //! nodes of smaller master faces are held in the mean alone. So nodes of the master are asked too, by their own normals, if they
 //! come to lie over slave faces whose pairs do not hold all that is over them.
 //!
+//! A pair holds its node along the normal before the motion, against the faces that lay over it. Where it slides far beside the
+//! size of its faces, others lie over it, or the same ones at another height if they are inclined to that normal; these faces of
+//! the slave are asked as those without a pair are.
+//!
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::candidates::{Candidates, Reach};
 use super::digits::ON_PLANE;
@@ -21,13 +25,13 @@ use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
-use super::pairs::SurfacePairs;
+use super::pairs::{SurfacePair, SurfacePairs, Weight};
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
 use super::tree::Tree;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::Vector3;
+use crate::linalg::vector3::{Vector3, vector, without};
 use crate::monitor::Monitor;
 
 /// Pairs hold their nodes in the mean: between nodes, and where a node is folded, faces of two curved surfaces pass by a
@@ -87,8 +91,8 @@ type Passed = (f64, usize, Option<usize>);
 
 impl KeptSurfaces {
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
-    /// Faces that are covered wholly by faces of their size, and all of whose nodes have pairs of their own, are left to these.
-    /// `pairs` are those of these surfaces.
+    /// Faces that are covered wholly by faces of their size, and all of whose nodes have pairs of their own that slide by less than
+    /// a tenth of the face, are left to these. `pairs` are those of these surfaces.
     ///
     /// # Errors
     /// Displacements that are not finite; a shape with wrong numbers; [`Error::Stopped`]: the monitor ends it.
@@ -105,8 +109,8 @@ impl KeptSurfaces {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
         let progress = &PairingProgress::new(monitor);
-        let held = &self.held(pairs);
         let slaves = &self.before_and_after(("slave", progress), &moved, &self.slave)?;
+        let held = &self.held(pairs, &moved, &slaves[0]);
         match &self.master {
             KeptMaster::Shape(shape) => {
                 let wrong = |what| Error::invalid(Argument::Obstacle, format!("obstacle: {what}"));
@@ -135,25 +139,43 @@ impl KeptSurfaces {
         }
     }
 
-    fn held(&self, pairs: &SurfacePairs) -> Held {
+    /// The nodes that pairs hold, and the faces that these do not hold wholly or along which they slide far.
+    fn held(&self, pairs: &SurfacePairs, moved: &[f64], slave: &Side<'_>) -> Held {
         let [start, places] = &self.slave;
         let home = |node: &usize| pairs.images.home(*node).0;
         let homes: Vec<usize> = self.nodes.iter().map(home).collect();
-        let marks = |mut nodes: Vec<usize>| -> Vec<bool> {
-            nodes.sort_unstable();
-            homes.iter().map(|node| nodes.binary_search(node).is_ok()).collect()
-        };
-        let paired = marks(pairs.pairs.iter().map(|pair| pair.slave).collect());
-        let folded = marks(pairs.report.folded.iter().map(|fold| fold.node).collect());
+        let slides = pairs.pairs.iter().map(|pair| (pair.slave, self.slide(pair, pairs, moved)));
+        let slides: BTreeMap<usize, f64> = slides.collect();
+        let slides: Vec<Option<f64>> = homes.iter().map(|node| slides.get(node).copied()).collect();
+        let folded: BTreeSet<usize> = pairs.report.folded.iter().map(|fold| fold.node).collect();
         let [uncovered, in_part] = [&pairs.report.uncovered_faces, &pairs.report.held_in_part];
         let is_asked = |at: &usize| {
-            let of_pairs = || places[start[*at]..start[at + 1]].iter().all(|&place| paired[place]);
+            let of_pairs = || {
+                let far = LEAST_OF_PAIRED * slave.face(*at).size();
+                let stays = |place: &usize| slides[*place].is_some_and(|slide| slide <= far);
+                places[start[*at]..start[at + 1]].iter().all(stays)
+            };
             let [uncovered, in_part] = [uncovered, in_part].map(|list| list.binary_search(at));
             uncovered.is_ok() || in_part.is_ok() || !of_pairs()
         };
         let asked = (0..start.len() - 1).filter(is_asked).collect();
-        let nodes = paired.iter().zip(folded).map(|(paired, folded)| *paired || folded).collect();
+        let nodes = slides.iter().zip(homes);
+        let nodes = nodes.map(|(slide, node)| slide.is_some() || folded.contains(&node)).collect();
         Held { nodes, uncovered: uncovered.clone(), asked }
+    }
+
+    /// How far the node of a pair slides along its tangents. A row with an image whose node no face has tells nothing.
+    fn slide(&self, pair: &SurfacePair, pairs: &SurfacePairs, moved: &[f64]) -> f64 {
+        let motion = |(node, weight): &Weight| {
+            let (node, turn) = pairs.images.of(*node);
+            let at = self.dim * self.nodes.binary_search(&node).ok()?;
+            let [before, now] = [&self.coordinates, moved].map(|x| vector(&x[at..at + self.dim]));
+            Some(*weight * turn * (now - before))
+        };
+        let sum = |row: &[Weight]| row.iter().map(motion).sum::<Option<Vector3>>();
+        let apart = sum(pair.slaves()).zip(sum(pair.masters()));
+        let along = |(own, other)| without(own - other, &[pair.normal.into()]).norm();
+        apart.map_or(0.0, along)
     }
 
     /// The master faces before or behind those that are asked; what has passed through of the slave, and the slave faces of
@@ -202,9 +224,11 @@ impl KeptSurfaces {
         let plane = Plane::new(self.dim, x, normal);
         let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
             let (local, height) = plane.meeting(&after.face(at))?;
-            let apart = before.face(at).position(local) - origin;
+            let opposite = before.face(at);
+            let apart = opposite.position(local) - origin;
             let (depth, least) = (-height, least(at));
-            (normal.dot(&apart) >= -least && depth > least).then_some((depth, at))
+            let was_in_front = normal.dot(&apart).max(-opposite.normal(local).dot(&apart));
+            (was_in_front >= -least && depth > least).then_some((depth, at))
         });
         behind.min_by(|a, b| a.0.total_cmp(&b.0))
     }

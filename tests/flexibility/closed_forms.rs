@@ -498,3 +498,49 @@ fn a_search_for_other_solutions_is_refused() {
     let error = solve_flexibility(&problem, &settings, None, monitor).unwrap_err();
     assert!(error.to_string().contains("search for other solutions"), "{error}");
 }
+
+/// Tension alone pulls pairs whose gaps never close, and cohesion holds their tangents: `d_t = 0`, `K_nn d_n = a`, `F_n = a`. The loads
+/// are zero, so that forces of rounding are larger than these; both forms solve it.
+#[test]
+fn tension_alone_is_a_load() {
+    let rng = &mut Rng::with_seed(7);
+    for gap in [1e4, f64::INFINITY].repeat(10) {
+        let k = definite(rng, 6, 100.0);
+        let tension: Vec<f64> = (0..3).map(|_| uniform(rng, 0.1, 1.0)).collect();
+        let law: Vec<f64> = tension.iter().flat_map(|a| [0.3, 1e4, *a]).collect();
+        let normals: Vec<f64> = (0..9).map(|at| k[6 * (at / 3 * 2) + at % 3 * 2]).collect();
+        let opening = Elimination::new(3, &normals).solve(&tension).0;
+        let exact: Vec<f64> = opening.iter().flat_map(|d| [*d, 0.0]).collect();
+        let (w, gaps, zero) = (flexibility(&Elimination::new(6, &k), 6), [gap; 3], [0.0; 6]);
+        let law = FrictionLaw::Cohesive(&law);
+        let settings = Settings::default();
+        let stiff = ContactProblem::new(ContactData {
+            dim: 2,
+            pairs: 3,
+            stiffness: &k,
+            ld: 6,
+            load: &zero,
+            gap: &gaps,
+            law,
+            reference_slip: None,
+        });
+        let flexible = FlexibilityProblem::from_flexibility(FlexibilityData {
+            dim: 2,
+            pairs: 3,
+            flexibility: (&w, 6),
+            free: &zero,
+            gap: &gaps,
+            law,
+            reference_slip: None,
+        });
+        let monitor = &mut Monitor::new(&settings, None);
+        let stiff = solve(&stiff.unwrap(), &settings, None, monitor).unwrap();
+        let flexible = solve_flexibility(&flexible.unwrap(), &settings, None, monitor).unwrap();
+        for solution in [stiff, flexible] {
+            assert_eq!(solution.status, Status::Solved, "{gap}: {}", solution.message);
+            let apart = largest(&difference(&solution.d, &exact));
+            // The tolerance of 1e-10 by the condition number of 100.
+            assert!(apart <= 1e-8 * largest(&exact), "{gap}: {apart:e}");
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! Tied pairs: what is left is the problem of the other pairs, whatever the method and the form.
 
 use crate::common::dense::{Elimination, largest, product};
-use crate::common::problems::{Case, Law, decades, definite, loaded, mixed, uniform, vector};
+use crate::common::problems::{
+    Case, Law, add_spring, decades, definite, loaded, mixed, uniform, vector,
+};
 use fastrand::Rng;
 use signorini::certificate::{certify, is_escape, prove};
 use signorini::law::{Bound, PairLaw, first_open_tie};
@@ -553,5 +555,41 @@ fn a_free_mass_beside_a_tie_rests_or_escapes() {
                 assert!(is_escape(&problem, &found.recession.expect("a proof")), "{context}");
             }
         }
+    }
+}
+
+/// Four pairs whose `K` has the rank 2, one of them tied where it has slipped: the loads of the other pairs are larger than
+/// those of the whole, and so is what their tolerance lets pass. Displacements and forces are chosen, and the loads follow, so
+/// that there is a solution. Pair 0 is open to friction, pair 1 sticks at a force on the edge of its ellipse, pair 3 has none.
+#[test]
+fn a_tie_that_moves_far_leaves_loads_that_are_larger_than_the_whole() {
+    let strains = [
+        [2.0, -1.0, 2.0, -2.0, 1.0, 2.0, 1.0, 2.0, 0.0, 1.0, -1.0, -1.0],
+        [0.0, 1.0, 2.0, -1.0, 2.0, -1.0, 0.0, 0.0, 2.0, -1.0, 2.0, 0.0],
+    ];
+    let numbers = [[1.0, 1.0, 0.0, 0.0], [5.0, 1.0, 1.0, 2.0], TIED, [2.0, 0.0, 0.0, 0.0]];
+    let mut k = vec![0.0; 144];
+    strains.iter().for_each(|strain| add_spring(&mut k, strain, 1.0));
+    let rng = &mut Rng::with_seed(1);
+    for round in 0..500 {
+        let mut d = [0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0];
+        d[10..].fill_with(|| uniform(rng, -3.0, 3.0));
+        let (sin, cos) = uniform(rng, 0.0, std::f64::consts::TAU).sin_cos();
+        let force = [0.0, 0.0, 0.0, -2.0, cos, sin, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0];
+        let case = Case {
+            dim: 3,
+            pairs: 4,
+            f: product(&k, &d)
+                .iter()
+                .zip(force)
+                .map(|(internal, force)| internal - force)
+                .collect(),
+            k: k.clone(),
+            gap: vec![0.0; 4],
+            law: Law::ByPair(numbers.concat()),
+            slip: Some(vec![-1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 1.0, -1.0]),
+        };
+        let found = case.solve(&Settings::default());
+        assert_eq!(found.status, Status::Solved, "{round}: {}", found.message);
     }
 }

@@ -322,3 +322,42 @@ fn a_node_between_those_of_a_long_face_is_told() {
         assert_eq!(found.node, Some(ground.len() + 13), "{faces}: {found:?}");
     }
 }
+
+/// A line of 8 faces of length 1, inclined over a level one that it touches at its lower end, slides along itself: its pairs keep
+/// their gaps, and the end is `t sin a` below, which is `t tan a` along its normal. It is told if the end is deeper than a tenth
+/// of a face, by which pairs may let it pass.
+#[test]
+fn a_line_that_slides_along_itself_is_told_with_its_depth() {
+    for (angle, slip) in
+        [0.0_f64, 0.2, 0.5, 0.7].into_iter().flat_map(|a| [0.05, 0.3, 2.0].map(|t| (a, t)))
+    {
+        let (sin, cos) = angle.sin_cos();
+        let upper = (0..=8).map(|at| [f64::from(at) * cos, f64::from(at) * sin]);
+        let lower = (0..=8).map(|at| [2.0 * f64::from(at) - 4.0, 0.0]);
+        let x: Vec<f64> = upper.chain(lower).flatten().collect();
+        let slave: Vec<_> = (0..8).map(|at| vec![at, at + 1]).collect();
+        let master: Vec<_> = (9..17).map(|at| vec![at + 1, at]).collect();
+        let ((start, of_slave), (of_start, of_master)) = (flat(&slave), flat(&master));
+        let surfaces = Surfaces {
+            dim: 2,
+            coordinates: &x,
+            slave: Faces { start: &start, nodes: &of_slave },
+            master: Master::Faces(Faces { start: &of_start, nodes: &of_master }),
+        };
+        let settings =
+            SurfaceSettings { search_distance: Some(20.0), ..SurfaceSettings::default() };
+        let found = pair_surfaces(&surfaces, &settings, &mut unlimited()).unwrap();
+        assert_eq!(found.pairs.len(), 9);
+        let along = [-slip * cos, -slip * sin];
+        let u = |node: usize, axis: usize| if node < 9 { along[axis] } else { 0.0 };
+        let passed = KeptSurfaces::new(&surfaces, 0.0).penetration(&found, u, &mut unlimited());
+        let (passed, depth) = (passed.unwrap(), slip * angle.tan());
+        let context = format!("{angle}, {slip}: {passed:?}");
+        if depth < 0.1 {
+            assert_eq!(passed, Penetration::default(), "{context}");
+        } else {
+            assert!((passed.depth - depth).abs() < 1e-12, "{context}");
+            assert_eq!((passed.node, passed.face), (Some(0), 0), "{context}");
+        }
+    }
+}

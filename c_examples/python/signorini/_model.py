@@ -355,7 +355,7 @@ class Model(Remade):
         With several cases each may have a leading axis of C, or be the same for all. A case that is
         wrong does not stop the others: its status is negative, its numbers are NaN, its state is -1
         and its report None. start="previous": each case starts from the one before.
-        penetration: with pairs from surfaces, look if parts without a pair have passed through the other side: a
+        penetration: with pairs from surfaces, look if parts without a pair, or whose pairs slide far, have passed through: a
         warning, and Result.penetration. Where gap is larger than that of the pairing by some length, at pairs around the
         deepest place of a zone, less than twice that is none.
         """

@@ -80,7 +80,7 @@ press.  force: of the contact on the slave's body, (3,).
 """
 
 Penetration = namedtuple("Penetration", "points depth point face node master_face sentence")
-Penetration.__doc__ = """What has passed through the other side without a pair; the deepest point of it.
+Penetration.__doc__ = """What has passed through the other side, without a pair or as its pairs slide far; the deepest point of it.
 
 points: number of slave nodes and of middles of slave faces that have, and of nodes of the master through other slave
 faces.  depth: along its normal, of a rigid shape its distance from the shape.
@@ -363,7 +363,7 @@ class SurfacePairs(Remade):
         return coordinates
 
     def penetration(self, u):
-        """What has passed through the other side without a pair: a Penetration, or None if nothing has.
+        """What has passed through the other side, without a pair or as its pairs slide far: a Penetration, or None if nothing has.
 
         u: displacements of all degrees of freedom, as Model.recover returns them, at least of the nodes of faces. A point
         that has passed through the whole of a rigid shape and is outside again is not found.
@@ -377,9 +377,9 @@ class SurfacePairs(Remade):
         what = f"node {found.node}" if found.node >= 0 else f"a point of slave face {found.face}"
         through = f"master face {found.master_face}" if found.master_face >= 0 else "the obstacle"
         sentence = (
-            f"{found.points} nodes and middles of slave faces have passed through the other side without a pair, the "
+            f"{found.points} nodes and middles of slave faces have passed through the other side, the "
             f"deepest, {what} at ({place}), through {through} by {found.depth:.4g}: pair with a larger search_distance, "
-            f"or let the side with the finer mesh be the slave")
+            f"let the side with the finer mesh be the slave, or, where pairs slide far, solve in steps and pair the moved meshes")
         return Penetration(found.points, found.depth, np.array(found.point), found.face, found.node,
                            found.master_face, sentence)
 

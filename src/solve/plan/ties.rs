@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
 use crate::problem::{ContactProblem, FrictionLaw, Remembered};
-use crate::settings::Settings;
+use crate::settings::{SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::refine_to_tolerance;
 use crate::solve::part::PairData;
 use crate::solve::result::{Call, Candidate, Ending, Escape, Solution, Solve, Status};
@@ -35,15 +35,26 @@ pub fn without_ties(call: &Call<'_>, solve: Solve) -> Option<Result<Solution, Er
 fn on_others(call: &Call<'_>, solve: Solve) -> Result<Solution, Error> {
     let whole = call.contact.problem();
     let others = Others::of(call.contact);
-    let settings = Settings { proof: false, ..call.settings.clone() };
     let start = call.start.map(|start| others.gathered(start));
-    let found = {
+    let mut solution = {
         let problem = others.problem(whole);
         let contact = &Contact::new(&problem);
         let start = start.as_deref().filter(|_| !contact.is_at_rest());
-        solve(&Call { contact, settings: &settings, start, ..*call })?
+        let with_tolerance = |tolerance| {
+            let settings = &Settings { proof: false, tolerance, ..call.settings.clone() };
+            solve(&Call { contact, settings, start, ..*call })
+        };
+        let tolerance = call.settings.tolerance;
+        let found = with_tolerance(tolerance)?;
+        let (is_solved, of_others) = (found.status == Status::Solved, found.certificate.eta);
+        let solution = others.on_whole(call, found);
+        // Where ties move bodies far, the forces that measure the others are larger than those of the whole.
+        let enough = 0.5 * of_others * tolerance / solution.certificate.eta;
+        match is_solved && solution.status != Status::Solved {
+            true => others.on_whole(call, with_tolerance(enough.max(SMALLEST_TOLERANCE))?),
+            false => solution,
+        }
     };
-    let mut solution = others.on_whole(call, found);
     // What proves something of the others may prove nothing of the whole.
     let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
     if solution.status == Status::NoEquilibrium
