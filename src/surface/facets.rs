@@ -2,11 +2,11 @@
 //!
 //! A face between nodes of a curved surface stands off it by a sagitta. On an edge the normals at its ends, the means of all faces
 //! there, tell it by how far they are inclined to the face: a parabola whose slopes at the ends of a chord are `t` stands off by `t / 6`
-//! of the chord in the mean, a quartic that meets the middle too by `t / 30`. A mid node that lies on the chord does not meet the
-//! surface. A face stands off by the mean of its edges along each direction, which a triangle and a quadrilateral have alike: half the
+//! of the chord in the mean, a quartic that meets the middle too by `t / 30`. A mid node on the chord does not meet the surface, which
+//! stands off it by `t / 4`. A face stands off by the mean of its edges along each direction, which a triangle and a quadrilateral have alike: half the
 //! sum over all edges. Equal facets of both sides cancel, as one is hollow.
 
-use super::digits::left_open;
+use super::digits::{ON_PLANE, left_open};
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
@@ -16,7 +16,8 @@ use super::shape::padded;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
 
-/// Facets are larger than an interference allows if they change it by more than this part of it: pressures are wrong by as much.
+/// Facets are larger than an interference or a clearance allows if they change it by more than this part of it: pressures are wrong by
+/// as much.
 const ALLOWED: f64 = 0.1;
 
 /// They are told if they do so on one of so many parts of the area of curved faces, by how far these stand off: a round body that
@@ -51,30 +52,39 @@ pub(super) fn stand_off(
     Ok(())
 }
 
-/// The mean at each node of what the faces around it stand off; zero at other nodes.
+/// How far the surface stands off at each node: off a node on a chord by its sagitta, which the rows of pairs carry through faces, and
+/// by the mean of what the faces around a node have beside that; zero at other nodes.
 fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
-    let count = side.coordinates.len() / side.dim;
-    let mut normals = vec![Vector3::zeros(); count];
-    let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
-    for face in side.each_face() {
-        let (_, face) = face?;
-        let own = at_corners(&face);
-        for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
-            normals[node] += normal;
-        }
-        of_faces.push(own);
-    }
-    let mut sums = vec![[0.0; 2]; count];
+    let normals = Normals::of(side)?;
+    // Of faces, and of sagittas: sums, and how many there are.
+    let mut sums = vec![[[0.0; 2]; 2]; normals.at_nodes.len()];
     for face in side.each_face() {
         let (at, face) = face?;
-        let away = of_face((&face, &of_faces[at]), &normals);
+        let (mut mean, mut middle) = (0.0, 0.0);
+        for edge in normals.edges(at, &face) {
+            // The mean of a quartic, and of a parabola with these slopes at its ends, or what it is in the middle.
+            match edge.mid {
+                Some(_) if edge.meets => mean += edge.turn / 120.0,
+                None => mean += edge.turn / 24.0,
+                Some(mid) => {
+                    middle += edge.turn / 16.0;
+                    let [_, [sum, count]] = &mut sums[face.nodes[mid]];
+                    *sum += edge.turn / 8.0;
+                    *count += 1.0;
+                }
+            }
+        }
         for &node in face.nodes {
-            let [sum, faces] = &mut sums[node];
-            *sum += away;
-            *faces += 1.0;
+            let [[sum, count], _] = &mut sums[node];
+            *sum += mean;
+            *count += 1.0;
+        }
+        if let Some(centre) = face.kind.central_node() {
+            sums[face.nodes[centre]][1] = [middle, 1.0];
         }
     }
-    Ok(sums.into_iter().map(|[sum, faces]| sum / f64::max(faces, 1.0)).collect())
+    let mean = |[sum, count]: [f64; 2]| sum / f64::max(count, 1.0);
+    Ok(sums.into_iter().map(|sums| sums.map(mean).iter().sum()).collect())
 }
 
 /// Unit normals of a face at its corners; of linear ones that in the middle.
@@ -85,40 +95,79 @@ fn at_corners(face: &Face<'_>) -> [Vector3; 4] {
     padded(face.kind.places()[..face.kind.corners()].iter().map(|at| face.normal(*at)))
 }
 
-/// How far the true surface stands off a face with its `own` normals in the mean, outward, with normals of nodes of any length.
-fn of_face((face, own): (&Face<'_>, &[Vector3; 4]), normals: &[Vector3]) -> f64 {
-    let steepest = (1.0 - SMOOTH) / (1.0 + SMOOTH);
-    // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
-    let slopes: [Vector3; 4] = padded((0..face.kind.corners()).map(|at| {
-        let mean = normals[face.nodes[at]];
-        let across = mean.dot(&own[at]);
-        if across > 0.0 { own[at] - mean / across } else { Vector3::zeros() }
-    }));
-    let fall = |at: usize, along: &Vector3| {
-        let fall = slopes[at].dot(along);
-        if fall * fall <= steepest * along.norm_squared() { fall } else { 0.0 }
-    };
-    let of_edge = |[at, next]: [usize; 2]| {
-        let along = face.x[next] - face.x[at];
-        // A face that is bent at one end alone is flat, beside an edge of the body.
-        let [a, b] = [fall(at, &along), -fall(next, &along)];
-        let least = if a * b > 0.0 { 4.0 * a.abs().min(b.abs()) } else { 0.0 };
-        let turn = (a + b).clamp(-least, least);
-        // A parabola with these slopes at its ends stands off by an eighth of their sum in the middle. A mid node that stands off the
-        // chord by less than half of it is not on the surface: the mean of both normals has half the length of their sum.
-        let sagitta = turn.abs() / 8.0;
-        let meets = face.kind.mids().any(|(mid, ends)| {
-            let off = face.x[mid] - 0.5 * (face.x[at] + face.x[next]);
-            let off = off.dot(&(own[at] + own[next])).abs();
-            ends.contains(&at) && ends.contains(&next) && off >= sagitta
-        });
-        turn / if meets { 60.0 } else { 12.0 }
-    };
-    0.5 * face.kind.edges().map(of_edge).sum::<f64>()
+/// Normals of a side at its nodes, of any length, and of each face at its corners.
+pub(super) struct Normals {
+    at_nodes: Vec<Vector3>,
+    of_faces: Vec<[Vector3; 4]>,
 }
 
-/// Number of pairs at which facets change an interference by more than it allows, and the most by which they do; `None`: these
-/// are few, or the faces are flat but for the digits of coordinates.
+/// An edge of a face on a curved surface.
+pub(super) struct Edge {
+    /// How far its ends fall behind the surface together, over the whole edge, by their slopes.
+    turn: f64,
+    /// Its mid node, by its place in the face.
+    pub(super) mid: Option<usize>,
+    /// `true` if that stands on the surface.
+    pub(super) meets: bool,
+}
+
+impl Normals {
+    pub(super) fn of(side: &Side<'_>) -> Result<Normals, Error> {
+        let mut at_nodes = vec![Vector3::zeros(); side.coordinates.len() / side.dim];
+        let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
+        for face in side.each_face() {
+            let (_, face) = face?;
+            let own = at_corners(&face);
+            for (&node, normal) in face.nodes.iter().take(face.kind.corners()).zip(&own) {
+                at_nodes[node] += normal;
+            }
+            of_faces.push(own);
+        }
+        Ok(Normals { at_nodes, of_faces })
+    }
+
+    /// The edges of a face by its place.
+    pub(super) fn edges(&self, at: usize, face: &Face<'_>) -> impl Iterator<Item = Edge> {
+        let (own, steepest) = (&self.of_faces[at], (1.0 - SMOOTH) / (1.0 + SMOOTH));
+        // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
+        let slopes: [Vector3; 4] = padded((0..face.kind.corners()).map(|at| {
+            let mean = self.at_nodes[face.nodes[at]];
+            let across = mean.dot(&own[at]);
+            if across > 0.0 { own[at] - mean / across } else { Vector3::zeros() }
+        }));
+        face.kind.edges().map(move |[at, next]| {
+            let along = face.x[next] - face.x[at];
+            let fall = |at: usize| {
+                let fall = slopes[at].dot(&along);
+                if fall * fall <= steepest * along.norm_squared() { fall } else { 0.0 }
+            };
+            // A face that is bent at one end alone is flat, beside an edge of the body.
+            let [a, b] = [fall(at), -fall(next)];
+            let least = if a * b > 0.0 { 4.0 * a.abs().min(b.abs()) } else { 0.0 };
+            let turn = (a + b).clamp(-least, least);
+            // A parabola with these slopes at its ends stands off by an eighth of their sum in the middle. A mid node that stands off
+            // the chord by less than half of it is not on the surface: the mean of both normals has half the length of their sum.
+            let least = turn.abs() / 8.0 - ON_PLANE * along.norm();
+            let mid = face.kind.mids().find(|(_, ends)| ends.contains(&at) && ends.contains(&next));
+            let off = |mid: usize| face.x[mid] - 0.5 * (face.x[at] + face.x[next]);
+            let meets = |mid| off(mid).dot(&(own[at] + own[next])).abs() >= least;
+            let mid = mid.map(|(mid, _)| mid);
+            Edge { turn, mid, meets: mid.is_some_and(meets) }
+        })
+    }
+}
+
+/// Pairs at which facets change gaps much.
+#[derive(Clone, Copy, Default)]
+struct Large {
+    count: usize,
+    /// The most by which they change one.
+    most: f64,
+    weight: f64,
+}
+
+/// Number of pairs at which facets change an interference or a clearance by more than it allows, and the most by which they do; `None`:
+/// these are few, or the faces are flat but for the digits of coordinates.
 ///
 /// # Errors
 /// What stops the pairing.
@@ -126,7 +175,9 @@ pub(super) fn too_large(
     found: &SurfacePairs,
     (slave, settings): (&Side<'_>, &SurfaceSettings),
 ) -> Result<Option<(usize, f64)>, Error> {
-    let (mut count, mut most, mut of_them, mut of_all) = (0, 0.0, 0.0, 0.0);
+    // Those that press, by the faces or by the surfaces, and all.
+    let mut large = [Large::default(); 2];
+    let (mut of_all, mut changes, mut gaps) = (0.0, 0.0, 0.0);
     for (pair, &(_, [own, opposite])) in found.pairs.iter().zip(&found.report.stand_off) {
         slave.progress.goes_on()?;
         let lost = own + opposite;
@@ -138,17 +189,25 @@ pub(super) fn too_large(
             [0.0, lost].map(|lost| -settings.gap(pair.measured_gap - lost, pair.moving));
         let change = (interference - seen).abs();
         // A fit without play is one but for the accuracy of what is lost.
-        let overlap = f64::max(seen, interference + ALLOWED * change);
+        let presses = f64::max(seen, interference + ALLOWED * change) > 0.0;
         of_all += weight;
-        if overlap > 0.0 && change > ALLOWED * interference.max(0.0) {
-            count += 1;
-            of_them += weight;
-            most = f64::max(most, change);
+        changes += weight * change * change;
+        gaps += weight * interference * interference;
+        if change > ALLOWED * interference.abs() {
+            for large in &mut large[usize::from(!presses)..] {
+                large.count += 1;
+                large.most = f64::max(large.most, change);
+                large.weight += weight;
+            }
         }
     }
-    let are_many = count > 0 && A_PART * of_them >= of_all;
+    let [pressed, all] = large;
+    let are_many = pressed.count > 0 && A_PART * pressed.weight >= of_all;
+    // A body that is loose all around, as a shaft in its bearing.
+    let is_loose = changes > ALLOWED * ALLOWED * gaps;
+    let told = if are_many { pressed } else { all };
     // Clear of the digits of coordinates, of which flat faces are made too.
     let digits = || left_open(slave.dim, &slave.lengths().collect::<Vec<f64>>());
-    let is_seen = || ALLOWED * most > digits();
-    Ok((are_many && is_seen()).then_some((count, most)))
+    let is_seen = || ALLOWED * told.most > digits();
+    Ok(((are_many || is_loose) && is_seen()).then_some((told.count, told.most)))
 }

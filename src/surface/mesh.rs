@@ -21,7 +21,7 @@ pub(super) struct Side<'a> {
     pub(super) coordinates: &'a [f64],
     pub(super) faces: Faces<'a>,
     /// The last faces are images of these, by these motions.
-    origins: &'a [(Motion, usize)],
+    pub(super) origins: &'a [(Motion, usize)],
     is_axisymmetric: bool,
     /// Lengths of the host are multiplied by this power of two, so that coordinates are below 1 whatever its unit is.
     pub(super) scale: f64,

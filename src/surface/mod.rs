@@ -35,6 +35,7 @@ mod facets;
 mod fields;
 mod fitted_normals;
 mod fitted_quadric;
+mod fitted_side;
 mod images;
 mod kept_surfaces;
 mod lists;

@@ -88,7 +88,7 @@ pub struct SurfaceReport {
     pub beside_planes: Vec<(usize, usize, f64)>,
     /// Slave faces that look away from an obstacle that is a shape.
     pub looking_away: usize,
-    /// Number of pairs at which facets of curved sides change an interference by more than a tenth of it, and the most by which they
+    /// Number of pairs at which facets of curved sides change a gap by more than a tenth of it, and the most by which they
     /// change it. `None`: there are none, or few.
     pub large_facets: Option<(usize, f64)>,
     /// How far the true surfaces of both sides stand off their facets, outward, in the mean at each slave node with a pair, while

@@ -9,7 +9,8 @@ use super::curved_patch::Patch;
 use super::digits::ON_PLANE;
 use super::exact_shape::ExactShape;
 use super::face::Face;
-use super::fitted_normals::{self, Fitted, SMOOTH};
+use super::fitted_normals::SMOOTH;
+use super::fitted_side::FittedSide;
 use super::meetings::Meetings;
 use super::mesh::Side;
 use super::normals::MOST_STEPS;
@@ -40,9 +41,9 @@ struct Over<'a> {
 /// Slave and master with their true shapes.
 pub(super) struct TrueSides<'a> {
     sides: [&'a Side<'a>; 2],
-    /// The exact shapes, or fitted normals; without either a side is its faces.
+    /// The exact shapes, or fitted patches; without either a side is its faces.
     exact: [Option<ExactShape>; 2],
-    fitted: [Option<Fitted>; 2],
+    fitted: [Option<FittedSide>; 2],
 }
 
 impl<'a> TrueSides<'a> {
@@ -65,7 +66,7 @@ impl<'a> TrueSides<'a> {
             };
             match &shapes[k] {
                 TrueShape::Facets => {}
-                TrueShape::Fitted => fitted[k] = Some(fitted_normals::fitted(side)?),
+                TrueShape::Fitted => fitted[k] = Some(FittedSide::new(side)?),
                 TrueShape::Exact(shape) => {
                     let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
                     is_near(side, &shape).map_err(refuse)?;
@@ -78,7 +79,7 @@ impl<'a> TrueSides<'a> {
 
     /// A face of the slave, 0, or of the master, 1; an image has the image of the shape.
     fn over<'s>(&self, side: usize, at: usize, face: &'s Face<'_>) -> Over<'s> {
-        let patch = self.fitted[side].as_ref().map(|normals| Patch::new(face, &normals[at]));
+        let patch = self.fitted[side].as_ref().map(|fitted| fitted.patch(self.sides[side], at));
         let exact = self.exact[side].map(|shape| match self.sides[side].origin(at) {
             Some((motion, _)) => shape.moved(&motion, self.sides[side].scale),
             None => shape,

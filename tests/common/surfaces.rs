@@ -135,6 +135,20 @@ impl Sheet {
         self
     }
 
+    /// Moves mid nodes and centres to the means of corners.
+    pub fn straightened(mut self) -> Sheet {
+        for face in &self.faces {
+            let count = if matches!(face.len(), 3 | 6) { 3 } else { 4 };
+            let corners: Vec<[f64; 3]> =
+                face[..count].iter().map(|&node| self.nodes[node]).collect();
+            for (i, &node) in face[count..].iter().enumerate() {
+                let ends = [corners[i % count], corners[(i + 1) % count]];
+                self.nodes[node] = mean(if i < count { &ends } else { &corners });
+            }
+        }
+        self
+    }
+
     /// Moves all nodes.
     pub fn mapped(mut self, map: impl Fn([f64; 3]) -> [f64; 3]) -> Sheet {
         self.nodes.iter_mut().for_each(|node| *node = map(*node));

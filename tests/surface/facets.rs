@@ -89,37 +89,69 @@ fn facets_change_an_interference_by_what_arcs_stand_off_them() {
     }
 }
 
-/// Mid nodes on the chords leave the polygon what it is: what is told of it is that of faces without them, to rounding.
-#[test]
-fn mid_nodes_on_chords_are_told_as_the_polygon_that_they_lie_on() {
-    let on_chords = |(mut nodes, faces): Line| {
-        let first = nodes.len();
-        let mid = |face: &Vec<usize>| {
-            let [a, b] = [nodes[face[0]], nodes[face[1]]];
-            [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0]
-        };
-        let mids: Vec<[f64; 3]> = faces.iter().map(mid).collect();
-        nodes.extend(mids);
-        let with_mid = |(i, face): (usize, Vec<usize>)| vec![face[0], face[1], first + i];
-        (nodes, faces.into_iter().enumerate().map(with_mid).collect())
+/// The line with mid nodes on its chords.
+fn on_chords((mut nodes, faces): Line) -> Line {
+    let first = nodes.len();
+    let mid = |face: &Vec<usize>| {
+        let [a, b] = [nodes[face[0]], nodes[face[1]]];
+        [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0]
     };
+    let mids: Vec<[f64; 3]> = faces.iter().map(mid).collect();
+    nodes.extend(mids);
+    let with_mid = |(i, face): (usize, Vec<usize>)| vec![face[0], face[1], first + i];
+    (nodes, faces.into_iter().enumerate().map(with_mid).collect())
+}
+
+/// With mid nodes on the chords the change is told pair by pair: it is the difference between gaps of these faces and of the circle, to
+/// the square of half a division as the sagitta is. They are fitted as the circle, to the sixth power of it, as faces without mid nodes.
+#[test]
+fn mid_nodes_on_chords_are_no_points_of_the_surface() {
+    let circle_of = Obstacle::Sphere { centre: [0.0; 3], radius: 1.0, hollow: false };
     for divisions in [[24, 31], [40, 13], [64, 150], [240, 200]] {
-        let [own, opposite] = divisions.map(|count| off(count, false));
-        let change = (own - opposite).abs();
+        let change = (off(divisions[0], false) - off(divisions[1], false)).abs();
+        let half = PI / divisions[0].min(divisions[1]) as f64;
         let sides = divisions.map(|count| circle(count, (1.0, 0.0), 0.1 / count as f64, false));
-        for (part, inner_is_slave) in [(0.5, true), (1.0, false), (5.0, true), (40.0, true)] {
-            let settings = SurfaceSettings { clearance: -part * change, ..Default::default() };
-            let told = |[inner, outer]: [Line; 2]| {
-                let found = in_hole(inner, outer, inner_is_slave, &settings);
-                found.report.large_facets.map(|(_, most)| most)
+        for (part, inner_is_slave) in [(0.5, true), (1.0, false), (5.0, true), (100.0, true)] {
+            let paired = |shape: TrueShape| {
+                let settings = SurfaceSettings {
+                    clearance: -part * change,
+                    shapes: [shape; 2],
+                    ..Default::default()
+                };
+                let [inner, outer] = sides.clone().map(on_chords);
+                in_hole(inner, outer, inner_is_slave, &settings)
             };
-            let [plain, with_mids] = [sides.clone(), sides.clone().map(on_chords)].map(told);
-            let context = format!("{divisions:?} {part}: {plain:?}, {with_mids:?}");
-            assert_eq!(plain.is_some(), part < 10.0, "{context}");
-            assert_eq!(plain.is_some(), with_mids.is_some(), "{context}");
-            let error = (plain.unwrap_or(0.0) - with_mids.unwrap_or(0.0)).abs();
-            // Slopes have the rounding of coordinates of 1 on a face.
-            assert!(error < 1e-14 * divisions[0].max(divisions[1]) as f64, "{context}");
+            let [facets, exact, fitted] =
+                [TrueShape::Facets, TrueShape::Exact(circle_of), TrueShape::Fitted].map(paired);
+            let apart = |found: &SurfacePairs| {
+                let gaps = found.pairs.iter().zip(&exact.pairs);
+                gaps.map(|(pair, exact)| (pair.gap - exact.gap).abs()).fold(0.0, f64::max)
+            };
+            let context = format!("{divisions:?} {part}");
+            assert!(apart(&fitted) < half.powi(6), "{context}: {:e}", apart(&fitted));
+            assert_eq!(fitted.report.large_facets, None, "{context}");
+            let told = facets.report.large_facets;
+            assert_eq!(told.is_some(), part < 100.0, "{context}: {told:?}");
+            let (_, most) = told.unwrap_or((0, apart(&facets)));
+            let error = (most - apart(&facets)).abs();
+            assert!(error < half * half * apart(&facets), "{context}: {most:e}, {error:e}");
+        }
+    }
+}
+
+/// A shaft in its bearing, centred: facets are told if they change the clearance by a tenth, and its polygon is not if it has the clearance
+/// of twenty times that.
+#[test]
+fn facets_that_change_a_clearance_are_told() {
+    for (divisions, has_mids) in [([24, 40], false), ([96, 160], false), ([40, 13], true)] {
+        let [own, opposite] = divisions.map(|count| off(count, has_mids));
+        let change = (own - opposite).abs();
+        for (part, inner_is_slave) in [(0.5, true), (2.0, false), (5.0, true), (20.0, false)] {
+            let [inner, outer] = [(0, 0.0), (1, part * change)]
+                .map(|(side, play)| circle(divisions[side], (1.0 + play, 0.0), 0.1, has_mids));
+            let found = in_hole(inner, outer, inner_is_slave, &SurfaceSettings::default());
+            let told = found.report.large_facets;
+            assert_eq!(told.is_some(), part < 10.0, "{divisions:?} {part}: {told:?}");
         }
     }
 }

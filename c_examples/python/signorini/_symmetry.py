@@ -135,7 +135,7 @@ def warn_of_numbers(contact, matrix, name=None):
 
 
 def warn_of_facets(contact, name=None):
-    """Warns of facets that change the interference of a case, if its gaps are those of the pairing."""
+    """Warns of facets that change the interference or clearance of a case, if its gaps are those of the pairing."""
     for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
         tell((f"zone {name!r}: " if name else "") + sentence)
 
