@@ -4,8 +4,8 @@
 
 use super::condensation::is_free;
 use crate::law::{Contact, Recession};
-use crate::linalg::tolerances::{LEAST_WORK, NEGLIGIBLE};
-use crate::linalg::vector::{dot, largest_of, norm_inf};
+use crate::linalg::tolerances::{FREE, LEAST_WORK, NEGLIGIBLE};
+use crate::linalg::vector::{dot, largest_of, norm, norm_inf};
 use crate::problem::{ContactProblem, Relation};
 
 /// True if the rigid motion `r` proves that no equilibrium exists.
@@ -25,7 +25,8 @@ pub(crate) fn is_escape_of(contact: &Contact<'_>, r: &[f64]) -> bool {
     let problem = contact.problem();
     let r = of_size_one(r);
     // On a motion that only Kᵀ resists internal forces do work.
-    problem.is_symmetric() && outworks_contact(contact, &r) && is_free(problem, &r)
+    let rounding = problem.relation().rounding_of_load * norm(&r);
+    problem.is_symmetric() && outworks_contact(contact, &r, rounding) && is_free(problem, &r)
 }
 
 /// A motion with the largest component 1: its length says nothing, and products of it might overflow, or vanish and with
@@ -35,9 +36,13 @@ pub(super) fn of_size_one(r: &[f64]) -> Vec<f64> {
     r.iter().map(|r| r / largest).collect()
 }
 
-/// True if contact stops a motion `r` of the pairs nowhere, and takes less work than the loads do. The work of a motion
-/// that is no number is none, and more than nothing is asked for.
-pub(super) fn outworks_contact<R: Relation>(contact: &Contact<'_, R>, r: &[f64]) -> bool {
+/// True if contact stops a motion `r` of the pairs nowhere, and takes less work than the loads do, whose own work is known up to some
+/// `rounding`. The work of a motion that is no number is none, and more than nothing is asked for.
+pub(super) fn outworks_contact<R: Relation>(
+    contact: &Contact<'_, R>,
+    r: &[f64],
+    rounding: f64,
+) -> bool {
     let root = contact.problem().unit_roots();
     let size = largest_of(r.iter().zip(&root).map(|(r, root)| r * root));
     let negligible = NEGLIGIBLE * size;
@@ -49,7 +54,7 @@ pub(super) fn outworks_contact<R: Relation>(contact: &Contact<'_, R>, r: &[f64])
     let resisted: f64 = motions.iter().map(|motion| motion.resisted).sum();
     let load = contact.load_with_tension();
     let scale: f64 = load.iter().zip(&root).map(|(f, root)| size * (f / root).abs()).sum();
-    dot(load, r) - resisted > LEAST_WORK * scale
+    dot(load, r) - resisted > (LEAST_WORK * scale).max(FREE * rounding)
 }
 
 /// By how much each pair must be lifted in the motion `r` so that contact forces do no negative work.

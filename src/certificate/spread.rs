@@ -6,7 +6,7 @@ use super::measure::{Certificate, Terms, measure_pair};
 use crate::error::Error;
 use crate::law::Contact;
 use crate::linalg::tolerances::FREE;
-use crate::linalg::vector::{dot, sizes};
+use crate::linalg::vector::{dot, norm, sizes};
 use crate::problem::{MatrixFree, StiffnessOperator};
 
 /// Measures the displacements `x` of all unknowns of `bodies`, whose residual `A x - b` is given. What the
@@ -41,7 +41,9 @@ pub(crate) fn is_spread_escape(
     r: &[f64],
 ) -> Result<bool, Error> {
     let r = of_size_one(r);
-    Ok(outworks_contact(contact, &r[bodies.inner()..]) && is_unresisted(bodies, &r)?)
+    let rounding = contact.problem().relation().rounding * norm(&r);
+    let of_pairs = &r[bodies.inner()..];
+    Ok(outworks_contact(contact, of_pairs, rounding) && is_unresisted(bodies, &r)?)
 }
 
 /// True if the bodies resist the motion `r` of all their unknowns by no more than rounding of the entries of `A`.

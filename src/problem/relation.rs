@@ -74,6 +74,8 @@ pub struct Stiffness<'a> {
     pub(crate) rounding: f64,
     /// A basis of the motions that nothing resists, where it is known better than the rounding of `K` tells; `None`: not.
     pub(crate) free_motions: Option<&'a [Vec<f64>]>,
+    /// The rounding of the sums that give the loads, in the norm; 0 of loads that are given.
+    pub(crate) rounding_of_load: f64,
     /// The factors that earlier problems with this matrix have left.
     pub(super) remembered: Option<&'a Remembered>,
 }
@@ -96,6 +98,7 @@ impl<'a> Stiffness<'a> {
             largest: matrix.largest_diagonal(),
             rounding: f64::EPSILON * (matrix.size() as f64 / COMPONENTS_A_UNIT).max(1.0),
             free_motions: None,
+            rounding_of_load: 0.0,
             remembered: None,
         }
     }

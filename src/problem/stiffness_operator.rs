@@ -151,7 +151,7 @@ pub struct MatrixFree<'a> {
     /// The displacements of all unknowns where those of the pairs are zero.
     pub(crate) at_zero: &'a [f64],
     /// The rounding of the sums that give the loads.
-    rounding: f64,
+    pub(crate) rounding: f64,
 }
 
 impl<'a> MatrixFree<'a> {

@@ -9,6 +9,7 @@ mod common;
 #[allow(dead_code)] // Each test uses a part.
 mod rows;
 
+mod balanced_loads;
 mod constrained;
 mod equations;
 mod frames;

@@ -23,8 +23,9 @@ use super::growth::{ENOUGH, Growth, proof_in, sentence};
 use super::step::{Means, measured, step};
 use crate::error::Error;
 use crate::law::{Contact, passes_gaps, without_friction};
+use crate::linalg::ball::UNIT;
 use crate::linalg::matrix::Matrix;
-use crate::linalg::vector::norm_inf;
+use crate::linalg::vector::{norm, norm_inf, sizes};
 use crate::problem::{ContactProblem, Redundant, Relation, Stiffness};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::newton::AIM;
@@ -285,6 +286,10 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         let stiffness = Matrix::new(d.len(), self.springs.stiffness(), d.len().max(1));
         let mut relation = Stiffness::new(stiffness, &load, self.contact.dim());
         relation.free_motions = self.springs.free_motions();
+        // On motions that nothing resists the load is that of the problem, and a proof one of it.
+        let own = self.contact.problem().relation();
+        let terms = [&own.magnitude(&sizes(&d))[..], own.load(), &self.force].map(norm);
+        relation.rounding_of_load = UNIT * terms.iter().sum::<f64>();
         let means = Means { settings: &settings, ..self.means };
         step(self.contact.problem(), relation, &d, means)
     }
