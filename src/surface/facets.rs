@@ -177,7 +177,7 @@ pub(super) fn too_large(
 ) -> Result<Option<(usize, f64)>, Error> {
     // Those that press, by the faces or by the surfaces, and all.
     let mut large = [Large::default(); 2];
-    let (mut of_all, mut changes, mut gaps) = (0.0, 0.0, 0.0);
+    let (mut of_all, mut changes, mut sizes) = (0.0, 0.0, 0.0);
     for (pair, &(_, [own, opposite])) in found.pairs.iter().zip(&found.report.stand_off) {
         slave.progress.goes_on()?;
         let lost = own + opposite;
@@ -192,7 +192,7 @@ pub(super) fn too_large(
         let presses = f64::max(seen, interference + ALLOWED * change) > 0.0;
         of_all += weight;
         changes += weight * change * change;
-        gaps += weight * interference * interference;
+        sizes += weight * interference * interference;
         if change > ALLOWED * interference.abs() {
             for large in &mut large[usize::from(!presses)..] {
                 large.count += 1;
@@ -204,7 +204,7 @@ pub(super) fn too_large(
     let [pressed, all] = large;
     let are_many = pressed.count > 0 && A_PART * pressed.weight >= of_all;
     // A body that is loose all around, as a shaft in its bearing.
-    let is_loose = changes > ALLOWED * ALLOWED * gaps;
+    let is_loose = changes > ALLOWED * ALLOWED * sizes;
     let told = if are_many { pressed } else { all };
     // Clear of the digits of coordinates, of which flat faces are made too.
     let digits = || left_open(slave.dim, &slave.lengths().collect::<Vec<f64>>());
