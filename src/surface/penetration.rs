@@ -17,7 +17,7 @@
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 use super::candidates::{Candidates, Reach};
 use super::digits::ON_PLANE;
@@ -25,7 +25,7 @@ use super::face::Face;
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
-use super::pairs::{SurfacePair, SurfacePairs, Weight};
+use super::pairs::{SurfacePairs, Weight};
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
@@ -142,40 +142,58 @@ impl KeptSurfaces {
     /// The nodes that pairs hold, and the faces that these do not hold wholly or along which they slide far.
     fn held(&self, pairs: &SurfacePairs, moved: &[f64], slave: &Side<'_>) -> Held {
         let [start, places] = &self.slave;
+        let slides = self.slides(pairs, moved);
         let home = |node: &usize| pairs.images.home(*node).0;
-        let homes: Vec<usize> = self.nodes.iter().map(home).collect();
-        let slides = pairs.pairs.iter().map(|pair| (pair.slave, self.slide(pair, pairs, moved)));
-        let slides: BTreeMap<usize, f64> = slides.collect();
-        let slides: Vec<Option<f64>> = homes.iter().map(|node| slides.get(node).copied()).collect();
+        let slides: Vec<Option<f64>> =
+            self.nodes.iter().map(|node| slides.get(home(node)).copied().flatten()).collect();
         let folded: BTreeSet<usize> = pairs.report.folded.iter().map(|fold| fold.node).collect();
         let [uncovered, in_part] = [&pairs.report.uncovered_faces, &pairs.report.held_in_part];
         let is_asked = |at: &usize| {
-            let of_pairs = || {
-                let far = LEAST_OF_PAIRED * slave.face(*at).size();
-                let stays = |place: &usize| slides[*place].is_some_and(|slide| slide <= far);
-                places[start[*at]..start[at + 1]].iter().all(stays)
+            let own = &places[start[*at]..start[at + 1]];
+            let stay = |size: f64| {
+                let far = LEAST_OF_PAIRED * size;
+                own.iter().all(|place| slides[*place].is_some_and(|slide| slide <= far))
             };
+            // An edge is no longer than the face.
+            let edge = || (slave.position(own[1]) - slave.position(own[0])).norm();
             let [uncovered, in_part] = [uncovered, in_part].map(|list| list.binary_search(at));
-            uncovered.is_ok() || in_part.is_ok() || !of_pairs()
+            let is_left = || stay(edge()) || stay(slave.face(*at).size());
+            uncovered.is_ok() || in_part.is_ok() || !is_left()
         };
         let asked = (0..start.len() - 1).filter(is_asked).collect();
-        let nodes = slides.iter().zip(homes);
-        let nodes = nodes.map(|(slide, node)| slide.is_some() || folded.contains(&node)).collect();
+        let is_folded = |node: &usize| !folded.is_empty() && folded.contains(&home(node));
+        let nodes = slides.iter().zip(&self.nodes);
+        let nodes = nodes.map(|(slide, node)| slide.is_some() || is_folded(node)).collect();
         Held { nodes, uncovered: uncovered.clone(), asked }
     }
 
-    /// How far the node of a pair slides along its tangents. A row with an image whose node no face has tells nothing.
-    fn slide(&self, pair: &SurfacePair, pairs: &SurfacePairs, moved: &[f64]) -> f64 {
-        let motion = |(node, weight): &Weight| {
-            let (node, turn) = pairs.images.of(*node);
-            let at = self.dim * self.nodes.binary_search(&node).ok()?;
-            let [before, now] = [&self.coordinates, moved].map(|x| vector(&x[at..at + self.dim]));
-            Some(*weight * turn * (now - before))
+    /// How far each node with a pair slides along its tangents, by its number. It is not known if no face has a node of the row, as an
+    /// image may be of one.
+    fn slides(&self, pairs: &SurfacePairs, moved: &[f64]) -> Vec<Option<f64>> {
+        let of_pairs = pairs.pairs.iter().map(|pair| pair.slave + 1);
+        let of_faces = self.nodes.last().map(|last| last + 1);
+        let count = of_pairs.chain(of_faces).max().unwrap_or(0);
+        let unknown = Vector3::repeat(f64::NAN);
+        let mut motions = vec![unknown; count];
+        let [now, before] = [moved, &self.coordinates].map(|x| x.chunks_exact(self.dim));
+        for ((now, before), &node) in now.zip(before).zip(&self.nodes) {
+            motions[node] = vector(now) - vector(before);
+        }
+        let motion = |node: usize| motions.get(node).copied().unwrap_or(unknown);
+        let moved = |sum: Vector3, &(node, weight): &Weight| match pairs.images.has(node) {
+            false => sum + weight * motion(node),
+            true => {
+                let (node, turn) = pairs.images.of(node);
+                sum + weight * turn * motion(node)
+            }
         };
-        let sum = |row: &[Weight]| row.iter().map(motion).sum::<Option<Vector3>>();
-        let apart = sum(pair.slaves()).zip(sum(pair.masters()));
-        let along = |(own, other)| without(own - other, &[pair.normal.into()]).norm();
-        apart.map_or(0.0, along)
+        let mut slides = vec![None; count];
+        for pair in &pairs.pairs {
+            let sum = |row: &[Weight]| row.iter().fold(Vector3::zeros(), moved);
+            let apart = sum(pair.slaves()) - sum(pair.masters());
+            slides[pair.slave] = Some(without(apart, &[pair.normal.into()]).norm());
+        }
+        slides
     }
 
     /// The master faces before or behind those that are asked; what has passed through of the slave, and the slave faces of
