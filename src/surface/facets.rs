@@ -3,8 +3,8 @@
 //! A face between nodes of a curved surface stands off it by a sagitta. On an edge the normals at its ends, the means of all faces
 //! there, tell it by how far they are inclined to the face: a parabola whose slopes at the ends of a chord are `t` stands off by `t / 6`
 //! of the chord in the mean, a quartic that meets the middle too by `t / 30`. A mid node on the chord does not meet the surface, which
-//! stands off it by `t / 4`. A face stands off by the mean of its edges along each direction, which a triangle and a quadrilateral have alike: half the
-//! sum over all edges. Equal facets of both sides cancel, as one is hollow.
+//! stands off it by `t / 4`. A face stands off by the mean of its edges along each direction, which a triangle and a quadrilateral have
+//! alike: half the sum over all edges. Equal facets of both sides cancel, as one is hollow.
 
 use super::digits::{ON_PLANE, left_open};
 use super::face::Face;

@@ -2,9 +2,10 @@
 //! pair.
 //!
 //! A moved point of the slave has passed through a moved master if that lies behind it along its normal before the motion,
-//! and the same point of the master was not behind it before, or it behind that point. What was, as layers behind each other are and surfaces that overlap
-//! from the beginning, is left to the pairs, and to their report where it is deeper than they look: coordinates alone do not say if
-//! such an overlap is meant, as that of shells whose thicknesses are gaps, and the host knows it before it solves.
+//! and before they were not behind each other, the same point of the master along the slave's normal and it along the master's. What
+//! was, as layers behind each other are and surfaces that overlap from the beginning, is left to the pairs, and to their report where
+//! it is deeper than they look: coordinates alone do not say if such an overlap is meant, as that of shells whose thicknesses are gaps,
+//! and the host knows it before it solves.
 //!
 //! A slave face that reaches over the rim of its master, or is larger than it, may have none of its points over the master, and
 //! nodes of smaller master faces are held in the mean alone. So nodes of the master are asked too, by their own normals, if they
