@@ -107,6 +107,11 @@ impl Face<'_> {
         self.off_bilinear().all(|(off, size)| off <= ON_EDGE * size)
     }
 
+    /// As [`Self::is_bilinear`], to a distance.
+    pub(super) fn is_bilinear_to(&self, most: f64) -> bool {
+        self.off_bilinear().all(|(off, _)| off <= most)
+    }
+
     /// How far mid nodes stand off the middles of straight edges, each with the length of its edge, and the centre off that of the
     /// corners, with the size of the face.
     fn off_bilinear(&self) -> impl Iterator<Item = (f64, f64)> {

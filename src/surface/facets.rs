@@ -6,10 +6,11 @@
 //! stands off it by `t / 4`. A face stands off by the mean of its edges along each direction, which a triangle and a quadrilateral have
 //! alike: half the sum over all edges. Equal facets of both sides cancel, as one is hollow.
 
-use super::digits::{ON_PLANE, left_open};
+use super::digits::left_open;
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
+use super::on_chords::on_chords;
 use super::pairs::{SurfacePairs, Weight};
 use super::settings::{Pairing, SurfaceSettings, TrueShape};
 use super::shape::padded;
@@ -55,7 +56,7 @@ pub(super) fn stand_off(
 /// How far the surface stands off at each node: off a node on a chord by its sagitta, which the rows of pairs carry through faces, and
 /// by the mean of what the faces around a node have beside that; zero at other nodes.
 fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
-    let normals = Normals::of(side)?;
+    let (normals, on_chords) = (Normals::of(side)?, on_chords(side)?);
     // Of faces, and of sagittas: sums, and how many there are.
     let mut sums = vec![[[0.0; 2]; 2]; normals.at_nodes.len()];
     for face in side.each_face() {
@@ -64,7 +65,7 @@ fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
         for edge in normals.edges(at, &face) {
             // The mean of a quartic, and of a parabola with these slopes at its ends, or what it is in the middle.
             match edge.mid {
-                Some(_) if edge.meets => mean += edge.turn / 120.0,
+                Some(_) if !on_chords[at] => mean += edge.turn / 120.0,
                 None => mean += edge.turn / 24.0,
                 Some(mid) => {
                     middle += edge.turn / 16.0;
@@ -96,23 +97,21 @@ fn at_corners(face: &Face<'_>) -> [Vector3; 4] {
 }
 
 /// Normals of a side at its nodes, of any length, and of each face at its corners.
-pub(super) struct Normals {
+struct Normals {
     at_nodes: Vec<Vector3>,
     of_faces: Vec<[Vector3; 4]>,
 }
 
 /// An edge of a face on a curved surface.
-pub(super) struct Edge {
+struct Edge {
     /// How far its ends fall behind the surface together, over the whole edge, by their slopes.
     turn: f64,
     /// Its mid node, by its place in the face.
-    pub(super) mid: Option<usize>,
-    /// `true` if that stands on the surface.
-    pub(super) meets: bool,
+    mid: Option<usize>,
 }
 
 impl Normals {
-    pub(super) fn of(side: &Side<'_>) -> Result<Normals, Error> {
+    fn of(side: &Side<'_>) -> Result<Normals, Error> {
         let mut at_nodes = vec![Vector3::zeros(); side.coordinates.len() / side.dim];
         let mut of_faces: Vec<[Vector3; 4]> = Vec::with_capacity(side.count());
         for face in side.each_face() {
@@ -127,7 +126,7 @@ impl Normals {
     }
 
     /// The edges of a face by its place.
-    pub(super) fn edges(&self, at: usize, face: &Face<'_>) -> impl Iterator<Item = Edge> {
+    fn edges(&self, at: usize, face: &Face<'_>) -> impl Iterator<Item = Edge> {
         let (own, steepest) = (&self.of_faces[at], (1.0 - SMOOTH) / (1.0 + SMOOTH));
         // How far the face falls behind the surface from a corner on along an edge, by slope; across a sharp edge there is no surface.
         let slopes: [Vector3; 4] = padded((0..face.kind.corners()).map(|at| {
@@ -145,14 +144,8 @@ impl Normals {
             let [a, b] = [fall(at), -fall(next)];
             let least = if a * b > 0.0 { 4.0 * a.abs().min(b.abs()) } else { 0.0 };
             let turn = (a + b).clamp(-least, least);
-            // A parabola with these slopes at its ends stands off by an eighth of their sum in the middle. A mid node that stands off
-            // the chord by less than half of it is not on the surface: the mean of both normals has half the length of their sum.
-            let least = turn.abs() / 8.0 - ON_PLANE * along.norm();
             let mid = face.kind.mids().find(|(_, ends)| ends.contains(&at) && ends.contains(&next));
-            let off = |mid: usize| face.x[mid] - 0.5 * (face.x[at] + face.x[next]);
-            let meets = |mid| off(mid).dot(&(own[at] + own[next])).abs() >= least;
-            let mid = mid.map(|(mid, _)| mid);
-            Edge { turn, mid, meets: mid.is_some_and(meets) }
+            Edge { turn, mid: mid.map(|(mid, _)| mid) }
         })
     }
 }

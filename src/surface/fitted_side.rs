@@ -1,14 +1,13 @@
 //! A fitted side: its faces as patches through their nodes.
 //!
-//! Nodes on chords, where meshers leave them that place nodes of the second order in the middle of edges, are not on the surface. A face
-//! that has some is the patch of its corners, by normals that are fitted to the corners of all faces. Fits of other faces have such
-//! nodes where that patch has them.
+//! A face whose mid nodes stand on chords is the patch of its corners, as one without mid nodes is, by normals that are fitted to the
+//! corners of all faces. Fits of other faces have its mid nodes where that patch has them.
 
 use super::curved_patch::Patch;
 use super::face::Face;
-use super::facets::Normals;
 use super::fitted_normals::{Fitted, fitted};
 use super::mesh::Side;
+use super::on_chords::on_chords;
 use super::shape::FaceKind;
 use super::surfaces::Faces;
 use crate::error::Error;
@@ -19,10 +18,10 @@ pub(super) struct FittedSide {
     on_chords: Option<OnChords>,
 }
 
-/// A side on which nodes stand on chords.
+/// A side with faces whose mid nodes stand on chords.
 struct OnChords {
-    /// The faces that have some.
-    has_some: Vec<bool>,
+    /// `true` of these faces.
+    is_one: Vec<bool>,
     /// The normals of all corners.
     of_corners: Fitted,
     /// The coordinates of all nodes, on the surface.
@@ -41,7 +40,7 @@ impl FittedSide {
     /// A face of the side as a patch.
     pub(super) fn patch(&self, side: &Side<'_>, at: usize) -> Patch {
         match &self.on_chords {
-            Some(found) if found.has_some[at] => {
+            Some(found) if found.is_one[at] => {
                 Patch::new(&of_corners(&side.face(at)), &found.of_corners[at])
             }
             Some(found) => Patch::new(&found.moved(side).face(at), &self.normals[at]),
@@ -51,10 +50,10 @@ impl FittedSide {
 }
 
 impl OnChords {
-    /// `None`: the side has no such nodes.
+    /// `None`: there are none.
     fn of(side: &Side<'_>) -> Result<Option<OnChords>, Error> {
-        let nodes = on_chords(side)?;
-        if nodes.iter().all(Vec::is_empty) {
+        let is_one = on_chords(side)?;
+        if !is_one.contains(&true) {
             return Ok(None);
         }
         let mut corners = [vec![0], Vec::new()];
@@ -66,12 +65,14 @@ impl OnChords {
         let of_corners_alone = Faces { start, nodes: list };
         let normals = fitted(&side.with(side.coordinates, of_corners_alone, side.origins))?;
         let mut sums = vec![(Vector3::zeros(), 0.0); side.coordinates.len() / side.dim];
-        for face in side.each_face() {
-            let (at, face) = face?;
+        for at in (0..side.count()).filter(|at| is_one[*at]) {
+            side.progress.goes_on()?;
+            let face = side.face(at);
             let patch = Patch::new(&of_corners(&face), &normals[at]);
-            for &place in &nodes[at] {
-                let (sum, count) = &mut sums[face.nodes[place]];
-                *sum += patch.at(face.kind.places()[place]).0;
+            let mids = face.nodes.iter().zip(face.kind.places()).skip(face.kind.corners());
+            for (&node, &place) in mids {
+                let (sum, count) = &mut sums[node];
+                *sum += patch.at(place).0;
                 *count += 1.0;
             }
         }
@@ -81,8 +82,7 @@ impl OnChords {
                 x.copy_from_slice(&(sum / (count * side.scale)).as_slice()[..side.dim]);
             }
         }
-        let has_some = nodes.iter().map(|nodes| !nodes.is_empty()).collect();
-        Ok(Some(OnChords { has_some, of_corners: normals, places }))
+        Ok(Some(OnChords { is_one, of_corners: normals, places }))
     }
 
     /// The side with all nodes on the surface.
@@ -96,17 +96,4 @@ fn of_corners<'f>(face: &Face<'f>) -> Face<'f> {
     let nodes = &face.nodes[..face.kind.corners()];
     let kind = FaceKind::of(face.kind.dim(), nodes.len()).expect("corners are a face");
     Face { kind, nodes, ..face.clone() }
-}
-
-/// The nodes of each face that stand on chords, by their places in it: mid nodes, and the centre between these.
-fn on_chords(side: &Side<'_>) -> Result<Vec<Vec<usize>>, Error> {
-    let normals = Normals::of(side)?;
-    let of_face = |face| {
-        let (at, face) = face?;
-        let off = normals.edges(at, &face).filter(|edge| !edge.meets);
-        let mids: Vec<usize> = off.filter_map(|edge| edge.mid).collect();
-        let centre = face.kind.central_node().filter(|_| !mids.is_empty());
-        Ok(mids.into_iter().chain(centre).collect())
-    };
-    side.each_face().map(of_face).collect()
 }

@@ -47,6 +47,7 @@ mod node_to_surface;
 mod normals;
 mod numbering;
 mod obstacle;
+mod on_chords;
 mod overlap;
 mod pair_arrays;
 mod pair_surfaces;

@@ -139,6 +139,75 @@ fn mid_nodes_on_chords_are_no_points_of_the_surface() {
     }
 }
 
+/// Arcs with free ends, with mid nodes on the arc, on chords, or on either by turns, each at a distance from another of these: fitted they
+/// have it, up to their ends, to the sixth power of half a division. In the plane and of revolution, to the axis.
+#[test]
+fn mid_nodes_on_chords_are_fitted_up_to_free_ends() {
+    let apart = 0.01;
+    let arc = |radius: f64, count: usize, on_chord: &dyn Fn(usize) -> bool| -> Line {
+        let at = |k: f64| (0.3 + k / count as f64 * (0.5 * PI - 0.3)).sin_cos();
+        let at = |k: f64| [radius * at(k).1, radius * at(k).0, 0.0];
+        let corner = |k: usize| at(k as f64);
+        let mid = |k: usize| match on_chord(k) {
+            true => std::array::from_fn(|c| 0.5 * (corner(k)[c] + corner(k + 1)[c])),
+            false => at(k as f64 + 0.5),
+        };
+        let nodes = (0..=count).map(corner).chain((0..count).map(mid)).collect();
+        (nodes, (0..count).map(|k| vec![k, k + 1, count + 1 + k]).collect())
+    };
+    let kinds: [&dyn Fn(usize) -> bool; 3] = [&|_| true, &|k| k % 2 == 0, &|_| false];
+    for (own, opposite) in (0..3).flat_map(|own| (0..3).map(move |opposite| (own, opposite))) {
+        for (counts, axisymmetric) in [([6, 9], false), ([9, 6], true), ([12, 13], true)] {
+            let [inner, outer] =
+                [arc(1.0, counts[0], kinds[own]), arc(1.0 + apart, counts[1], kinds[opposite])];
+            let settings = SurfaceSettings {
+                shapes: [TrueShape::Fitted; 2],
+                axisymmetric,
+                ..Default::default()
+            };
+            let found = in_hole(inner, outer, true, &settings);
+            assert!(found.pairs.len() > counts[0], "{:?}", found.summary());
+            let error = found.pairs.iter().map(|pair| (pair.gap - apart).abs()).fold(0.0, f64::max);
+            let half = 0.25 * PI / counts[0].min(counts[1]) as f64;
+            assert!(error < half.powi(6), "{own} {opposite} {counts:?}: {error:e}");
+        }
+    }
+}
+
+/// A flat of one face between two rounds of four on a plate, whose mid nodes stand on the flat and on the rounds: its mid node holds it,
+/// so that it is less than half as far off when it is fitted as with all mid nodes on chords.
+#[test]
+fn a_flat_between_rounds_has_its_mid_node() {
+    let outline = |k: f64| -> [f64; 3] {
+        let round = |part: f64, side: f64| {
+            let (sin, cos) = (0.5 * PI * part).sin_cos();
+            [side * (1.0 + sin), 1.0 - cos, 0.0]
+        };
+        match k {
+            k if k < 4.0 => round((4.0 - k) / 4.0, -1.0),
+            k if k <= 5.0 => [2.0 * (k - 4.5), 0.0, 0.0],
+            k => round((k - 5.0) / 4.0, 1.0),
+        }
+    };
+    let off = |is_exact: bool| {
+        let corner = |k: usize| outline(k as f64);
+        let mid = |k: usize| match is_exact {
+            true => outline(k as f64 + 0.5),
+            false => std::array::from_fn(|c| 0.5 * (corner(k)[c] + corner(k + 1)[c])),
+        };
+        let mut nodes: Vec<[f64; 3]> = (0..=9).map(corner).chain((0..9).map(mid)).collect();
+        let slave: Vec<Vec<usize>> = (0..9).map(|k| vec![k, k + 1, 10 + k]).collect();
+        nodes.extend([[3.0, -0.001, 0.0], [-3.0, -0.001, 0.0]]);
+        let settings =
+            SurfaceSettings { shapes: [TrueShape::Fitted; 2], ..SurfaceSettings::default() };
+        let found = pair(2, &nodes, [&slave, &[vec![19, 20]]], &settings).unwrap();
+        let least = found.pairs.iter().map(|pair| pair.gap).fold(f64::INFINITY, f64::min);
+        (least - 0.001).abs()
+    };
+    let [exact, on_chords] = [true, false].map(off);
+    assert!(2.0 * exact < on_chords, "{exact:e}, {on_chords:e}");
+}
+
 /// A shaft in its bearing, centred: facets are told if they change the clearance by a tenth, and its polygon is not if it has the clearance
 /// of twenty times that.
 #[test]
