@@ -5,7 +5,6 @@
 //! which is inclined to it by the error of its own slope alone: little beside the half of the angle by which that turns itself.
 
 use super::digits::{ON_PLANE, left_open};
-use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
 use super::shape::MANY_FACES;
@@ -20,14 +19,16 @@ const INCLINED: f64 = 0.5;
 /// # Errors
 /// What stops the pairing.
 pub(super) fn on_chords(side: &Side<'_>) -> Result<Vec<bool>, Error> {
-    let off = side.scale * left_open(side.dim, side.coordinates);
-    let has_mids = |face: &Face<'_>| face.kind.mids().next().is_some();
-    let straight = |at| {
-        let face = side.face(at);
-        has_mids(&face) && face.is_bilinear_to(off)
-    };
-    let straight: Vec<bool> = (0..side.count()).map(straight).collect();
     let mut found = vec![false; side.count()];
+    let has_mids = |at: &usize| side.corners(*at).len() < side.nodes(*at).len();
+    if !(0..side.count()).any(|at| has_mids(&at)) {
+        return Ok(found);
+    }
+    let own = |node: usize| &side.coordinates[side.dim * node..side.dim * (node + 1)];
+    let own: Vec<f64> = side.all_nodes().into_iter().flat_map(own).copied().collect();
+    let off = side.scale * left_open(side.dim, &own);
+    let straight: Vec<bool> =
+        (0..side.count()).map(|at| has_mids(&at) && side.face(at).is_bilinear_to(off)).collect();
     if !straight.contains(&true) {
         return Ok(found);
     }
