@@ -102,6 +102,14 @@ impl<'a> Candidates<'a> {
         self.near(&Sweep::of_point(&point, normal, self.ways()), normal)
     }
 
+    /// Master faces within reach of a point whose normals look the way of a normal.
+    pub(super) fn looking_along(&mut self, point: Vector3, normal: Vector3) -> &[usize] {
+        self.searched +=
+            self.master.near(&Sweep::of_point(&point, normal, self.ways()), &mut self.found);
+        self.found.retain(|&face| self.master.normals[face].dot(&normal) > 0.0);
+        &self.found
+    }
+
     /// How far back and forward faces are looked for.
     fn ways(&self) -> [f64; 2] {
         [self.reach.overlap, self.reach.open].map(|reach| reach.min(self.span))

@@ -67,8 +67,8 @@ impl KeptSurfaces {
         moved: &'s [f64],
         [start, nodes]: &'s [Vec<usize>; 2],
     ) -> Result<[Side<'s>; 2], Error> {
-        let faces = Faces { start, nodes };
-        let side = |x| Side::new(name, Argument::Coordinates, (self.dim, x), faces, progress);
-        Ok([side(&self.coordinates)?, side(moved)?])
+        let (faces, x) = (Faces { start, nodes }, (self.dim, &self.coordinates[..]));
+        let before = Side::new(name, Argument::Coordinates, x, faces, progress)?;
+        Ok([before, before.moved(moved)])
     }
 }

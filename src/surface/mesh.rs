@@ -208,6 +208,11 @@ impl<'a> Side<'a> {
         Ok(side)
     }
 
+    /// These faces with other coordinates of their nodes.
+    pub(super) fn moved(&self, coordinates: &'a [f64]) -> Side<'a> {
+        Side { coordinates, ..*self }
+    }
+
     /// Master faces of the same mesh, whose nodes must not be on this side.
     pub(super) fn opposite(&self, faces: Faces<'a>) -> Result<Side<'a>, Error> {
         let side = Side { name: "master", argument: Argument::MasterFaces, faces, ..*self };

@@ -36,6 +36,7 @@ mod fields;
 mod fitted_normals;
 mod fitted_quadric;
 mod fitted_side;
+mod held;
 mod images;
 mod kept_surfaces;
 mod lists;

@@ -7,37 +7,34 @@
 //! it is deeper than they look: coordinates alone do not say if such an overlap is meant, as that of shells whose thicknesses are gaps,
 //! and the host knows it before it solves.
 //!
+//! A node at an edge of its body has several normals, and is as deep as along that which leads out soonest: one that stands on a
+//! plate has not passed through the end of it, though that lies behind it along the plate. Where the way back enters the master's
+//! body before it leaves it, the point is outside; unless it was over both sides of that body, and has passed through the whole of it.
+//!
 //! A slave face that reaches over the rim of its master, or is larger than it, may have none of its points over the master, and
 //! nodes of smaller master faces are held in the mean alone. So nodes of the master are asked too, by their own normals, if they
 //! come to lie over slave faces whose pairs do not hold all that is over them.
 //!
-//! A pair holds its node along the normal before the motion, against the faces that lay over it. Where it slides far beside the
-//! size of its faces, others lie over it, or the same ones at another height if they are inclined to that normal; these faces of
-//! the slave are asked as those without a pair are.
-//!
 //! A point has passed into a rigid shape if it is in it. One that has passed through the whole of a shape is outside again, and
 //! is not found.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::candidates::{Candidates, Reach};
 use super::digits::ON_PLANE;
 use super::face::Face;
+use super::held::{Held, least_share};
 use super::kept_surfaces::{KeptMaster, KeptSurfaces};
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
-use super::pairs::{SurfacePairs, Weight};
+use super::pairs::SurfacePairs;
 use super::plane::Plane;
 use super::shape::{Local, MANY_FACES};
 use super::sweep::{Bounds, Hull};
 use super::tree::Tree;
 use crate::error::{Argument, Error};
-use crate::linalg::vector3::{Vector3, vector, without};
+use crate::linalg::vector3::Vector3;
 use crate::monitor::Monitor;
-
-/// Pairs hold their nodes in the mean: between nodes, and where a node is folded, faces of two curved surfaces pass by a
-/// small share of their size.
-const LEAST_OF_PAIRED: f64 = 0.1;
 
 /// How far the slave has passed through the master.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,38 +54,23 @@ pub struct Penetration {
     pub master: Option<usize>,
 }
 
-/// The nodes that pairs hold, and the slave faces that are asked.
-struct Held {
-    /// By place of the node.
-    nodes: Vec<bool>,
-    /// Ascending.
-    uncovered: Vec<usize>,
-    asked: Vec<usize>,
-}
-
-impl Held {
-    /// The least depth that counts of a point of a slave face: at a node, or in the middle.
-    fn least(&self, at: usize, face: &Face<'_>, place: Option<usize>) -> f64 {
-        let is_held = |place: &usize| self.nodes[*place];
-        let of_face =
-            || self.uncovered.binary_search(&at).is_err() && face.nodes.iter().any(is_held);
-        face.size() * least_share(place.as_ref().map_or_else(of_face, is_held))
-    }
-}
-
-/// The least depth that counts, beside the size of a face: where pairs hold it, and elsewhere.
-fn least_share(is_held: bool) -> f64 {
-    if is_held { LEAST_OF_PAIRED } else { ON_PLANE }
-}
-
 /// What has passed through, and the slave faces of which a point has.
 type Found = (Penetration, HashSet<usize>);
 
 /// A point of a face before and after the motion, by its place on it and its node; `None`: the middle.
 type Point<'p> = ([&'p Face<'p>; 2], Local, Option<usize>);
 
-/// How deep a point has passed through, with the slave face and the master face.
-type Passed = (f64, usize, Option<usize>);
+/// The way from a point, back along a normal, to the nearest face that it was in front of.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Its length; negative: ahead.
+    depth: f64,
+    /// It is longer than the least depth that counts.
+    is_through: bool,
+    slave: usize,
+    /// `None`: a shape.
+    master: Option<usize>,
+}
 
 impl KeptSurfaces {
     /// How far the slave has passed through the master where no pair holds it, after displacements `u` of nodes along axes.
@@ -120,7 +102,8 @@ impl KeptSurfaces {
                 let through = |at, (faces, local, place): Point<'_>| {
                     let least = held.least(at, faces[0], place);
                     let [before, now] = faces.map(|face| depth(face.position(local)));
-                    (before <= least && now > least).then_some((now, at, None))
+                    let is_through = before <= least && now > least;
+                    is_through.then_some(Way { depth: now, is_through, slave: at, master: None })
                 };
                 let faces = (held.asked.iter().copied(), true);
                 Ok(self.deepest(Found::default(), faces, slaves, through)?.0)
@@ -138,63 +121,6 @@ impl KeptSurfaces {
                 self.masters_through((held, near), [asked, masters], found)
             }
         }
-    }
-
-    /// The nodes that pairs hold, and the faces that these do not hold wholly or along which they slide far.
-    fn held(&self, pairs: &SurfacePairs, moved: &[f64], slave: &Side<'_>) -> Held {
-        let [start, places] = &self.slave;
-        let slides = self.slides(pairs, moved);
-        let home = |node: &usize| pairs.images.home(*node).0;
-        let slides: Vec<Option<f64>> =
-            self.nodes.iter().map(|node| slides.get(home(node)).copied().flatten()).collect();
-        let folded: BTreeSet<usize> = pairs.report.folded.iter().map(|fold| fold.node).collect();
-        let [uncovered, in_part] = [&pairs.report.uncovered_faces, &pairs.report.held_in_part];
-        let is_asked = |at: &usize| {
-            let own = &places[start[*at]..start[at + 1]];
-            let stay = |size: f64| {
-                let far = LEAST_OF_PAIRED * size;
-                own.iter().all(|place| slides[*place].is_some_and(|slide| slide <= far))
-            };
-            // An edge is no longer than the face.
-            let edge = || (slave.position(own[1]) - slave.position(own[0])).norm();
-            let [uncovered, in_part] = [uncovered, in_part].map(|list| list.binary_search(at));
-            let is_left = || stay(edge()) || stay(slave.face(*at).size());
-            uncovered.is_ok() || in_part.is_ok() || !is_left()
-        };
-        let asked = (0..start.len() - 1).filter(is_asked).collect();
-        let is_folded = |node: &usize| !folded.is_empty() && folded.contains(&home(node));
-        let nodes = slides.iter().zip(&self.nodes);
-        let nodes = nodes.map(|(slide, node)| slide.is_some() || is_folded(node)).collect();
-        Held { nodes, uncovered: uncovered.clone(), asked }
-    }
-
-    /// How far each node with a pair slides along its tangents, by its number. It is not known if no face has a node of the row, as an
-    /// image may be of one.
-    fn slides(&self, pairs: &SurfacePairs, moved: &[f64]) -> Vec<Option<f64>> {
-        let of_pairs = pairs.pairs.iter().map(|pair| pair.slave + 1);
-        let of_faces = self.nodes.last().map(|last| last + 1);
-        let count = of_pairs.chain(of_faces).max().unwrap_or(0);
-        let unknown = Vector3::repeat(f64::NAN);
-        let mut motions = vec![unknown; count];
-        let [now, before] = [moved, &self.coordinates].map(|x| x.chunks_exact(self.dim));
-        for ((now, before), &node) in now.zip(before).zip(&self.nodes) {
-            motions[node] = vector(now) - vector(before);
-        }
-        let motion = |node: usize| motions.get(node).copied().unwrap_or(unknown);
-        let moved = |sum: Vector3, &(node, weight): &Weight| match pairs.images.has(node) {
-            false => sum + weight * motion(node),
-            true => {
-                let (node, turn) = pairs.images.of(node);
-                sum + weight * turn * motion(node)
-            }
-        };
-        let mut slides = vec![None; count];
-        for pair in &pairs.pairs {
-            let sum = |row: &[Weight]| row.iter().fold(Vector3::zeros(), moved);
-            let apart = sum(pair.slaves()) - sum(pair.masters());
-            slides[pair.slave] = Some(without(apart, &[pair.normal.into()]).norm());
-        }
-        slides
     }
 
     /// The master faces before or behind those that are asked; what has passed through of the slave, and the slave faces of
@@ -216,8 +142,9 @@ impl KeptSurfaces {
         let through = |at, point: Point<'_>| {
             let ([first, _], local, place) = point;
             let (normal, least) = (first.normal(local), held.least(at, first, place));
-            let found = self.behind((point, normal), masters, &mut candidates, |_| least)?;
-            Some((found.0, at, Some(found.1)))
+            let (depth, is_through, master) =
+                self.behind((point, normal), masters, &mut candidates, |_| least)?;
+            Some(Way { depth, is_through, slave: at, master: Some(master) })
         };
         let faces = (held.asked.iter().copied(), true);
         let found = self.deepest(Found::default(), faces, slaves, through)?;
@@ -231,25 +158,39 @@ impl KeptSurfaces {
         Candidates::new(opposite, Reach { overlap: span, open: 0.0, layer: span }, span)
     }
 
-    /// The nearest face that a point with a normal has passed through, with its depth. `least` tells the least depth that counts.
+    /// The nearest face at a point with a normal or behind it, with its depth, and if that counts, for which `least` tells the least.
     fn behind(
         &self,
         ((faces, local, _), normal): (Point<'_>, Vector3),
         [before, after]: &[Side<'_>; 2],
         candidates: &mut Candidates<'_>,
         least: impl Fn(usize) -> f64,
-    ) -> Option<(f64, usize)> {
+    ) -> Option<(f64, bool, usize)> {
         let [origin, x] = faces.map(|face| face.position(local) - self.clearance * normal);
         let plane = Plane::new(self.dim, x, normal);
-        let behind = candidates.of_point(x, normal).iter().filter_map(|&at| {
+        // How far behind the point a face is, and how far in front of both the point was: along its normal, and along the face's.
+        let meeting = |&at: &usize| {
             let (local, height) = plane.meeting(&after.face(at))?;
             let opposite = before.face(at);
             let apart = opposite.position(local) - origin;
-            let (depth, least) = (-height, least(at));
-            let was_in_front = normal.dot(&apart).max(-opposite.normal(local).dot(&apart));
-            (was_in_front >= -least && depth > least).then_some((depth, at))
+            Some((at, -height, [normal.dot(&apart), -opposite.normal(local).dot(&apart)]))
+        };
+        let behind = candidates.of_point(x, normal).iter().filter_map(meeting);
+        let behind = behind.filter_map(|(at, depth, [own, other])| {
+            let least = least(at);
+            let was_in_front = own.max(other) >= -least;
+            (was_in_front && depth >= -least).then_some(((depth, least, at), own.min(other)))
         });
-        behind.min_by(|a, b| a.0.total_cmp(&b.0))
+        let ((depth, least, at), front) = behind.min_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
+        let is_through = depth > least;
+        let is_outside = is_through && {
+            let mut entered = candidates.looking_along(x, normal).iter().filter_map(meeting);
+            entered.any(|(_, entered, [own, other])| {
+                let was_over_both = front >= -ON_PLANE * depth && own.min(-other) > front;
+                (-least..depth - least).contains(&entered) && !was_over_both
+            })
+        };
+        (!is_outside).then_some((depth, is_through, at))
     }
 
     /// Adds nodes of the master that have passed through slave faces, those that are asked, to what is found of the slave: they
@@ -271,24 +212,27 @@ impl KeptSurfaces {
                 let is_held = face.nodes.iter().any(|place| held.nodes[*place]);
                 size.min(face.size()) * least_share(is_held)
             };
-            let (depth, at) = self.behind((point, normal), slaves, &mut candidates, least)?;
-            Some((depth, held.asked[at], Some(of_master)))
+            let (depth, is_through, at) =
+                self.behind((point, normal), slaves, &mut candidates, least)?;
+            Some(Way { depth, is_through, slave: held.asked[at], master: Some(of_master) })
         };
         let faces = (near_asked.into_iter(), false);
         Ok(self.deepest(found, faces, masters, through)?.0)
     }
 
-    /// Adds points of some faces of a side to what is found: their nodes, and their middles if these are wanted. `through` tells how
-    /// deep a point of a face has passed. They count if their slave face is not told yet; the faces that have such points are returned.
+    /// Adds points of some faces of a side to what is found: their nodes, and their middles if these are wanted. `way` leads from a
+    /// point of a face to that which it may have passed through. The shortest from a node tells if it has. Points count if their slave
+    /// face is not told yet; the faces that have such points are returned.
     fn deepest(
         &self,
         (mut found, told): Found,
         (faces, wants_middles): (impl Iterator<Item = usize>, bool),
         [before, after]: &[Side<'_>; 2],
-        mut through: impl FnMut(usize, Point<'_>) -> Option<Passed>,
+        mut way: impl FnMut(usize, Point<'_>) -> Option<Way>,
     ) -> Result<Found, Error> {
-        let (mut passed, mut counted) = (HashSet::new(), HashSet::new());
-        let mut asked = vec![0; self.coordinates.len()];
+        let mut ways: Vec<(Way, Option<usize>, Vector3)> = Vec::new();
+        let mut shortest: HashMap<usize, usize> = HashMap::new();
+        let mut asked = vec![0; self.coordinates.len() / self.dim];
         for at in faces {
             before.progress.goes_on()?;
             let faces = [&before.face(at), &after.face(at)];
@@ -301,18 +245,31 @@ impl KeptSurfaces {
                 place.is_none_or(|at| asked[at] <= MANY_FACES)
             };
             for (local, place) in points.filter(|(_, place)| asks(*place)) {
-                let Some((depth, face, master)) = through(at, (faces, local, place)) else {
-                    continue;
-                };
-                passed.insert(face);
-                let is_told = told.contains(&face);
-                let is_new = !is_told && place.is_none_or(|place| counted.insert(place));
-                found.count += usize::from(is_new);
-                if depth > found.depth {
-                    let point = faces[1].position(local).into();
-                    let node = place.and_then(|place| self.nodes.get(place).copied());
-                    found = Penetration { depth, point, face, node, master, ..found };
+                let Some(way) = way(at, (faces, local, place)) else { continue };
+                if let Some(place) = place {
+                    let first = shortest.entry(place).or_insert(ways.len());
+                    if ways.get(*first).is_some_and(|(other, ..)| way.depth < other.depth) {
+                        *first = ways.len();
+                    }
                 }
+                ways.push((way, place, faces[1].position(local)));
+            }
+        }
+        let mut passed = HashSet::new();
+        for (at, &(way, place, point)) in ways.iter().enumerate() {
+            let first = place.map_or(at, |place| shortest[&place]);
+            if !(way.is_through && ways[first].0.is_through) {
+                continue;
+            }
+            passed.insert(way.slave);
+            if first != at {
+                continue;
+            }
+            found.count += usize::from(!told.contains(&way.slave));
+            if way.depth > found.depth {
+                let node = place.and_then(|place| self.nodes.get(place).copied());
+                let Way { depth, slave: face, master, .. } = way;
+                found = Penetration { depth, point: point.into(), face, node, master, ..found };
             }
         }
         Ok((found, passed))

@@ -39,4 +39,5 @@ mod ties;
 mod ties_of_choice;
 mod true_shapes;
 mod turns;
+mod whole_skins;
 mod zones;
