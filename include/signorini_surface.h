@@ -305,8 +305,8 @@ int32_t signorini_surface_pair(int32_t dim, int64_t nodes, const double *coordin
  * @param dim,nodes,coordinates  as for signorini_surface_pair
  * @param slave     the faces that may touch the obstacle
  * @param obstacle  the obstacle
- * @param settings  NULL: the defaults; pairing, normals, rims, symmetry_... and ..._shape are for
- *                  faces alone
+ * @param settings  NULL: the defaults; pairing, normals, rims, symmetry_... and master_shape are
+ *                  for faces alone. slave_shape and fitted tell where mid nodes on chords belong
  * @param contact   out: the pairs; NULL unless 0 is returned
  */
 int32_t signorini_surface_pair_obstacle(int32_t dim, int64_t nodes, const double *coordinates,

@@ -104,8 +104,8 @@ pub unsafe extern "C" fn signorini_surface_pair(
 /// @param dim,nodes,coordinates  as for signorini_surface_pair
 /// @param slave     the faces that may touch the obstacle
 /// @param obstacle  the obstacle
-/// @param settings  NULL: the defaults; pairing, normals, rims, symmetry_... and ..._shape are for
-///                  faces alone
+/// @param settings  NULL: the defaults; pairing, normals, rims, symmetry_... and master_shape are
+///                  for faces alone. slave_shape and fitted tell where mid nodes on chords belong
 /// @param contact   out: the pairs; NULL unless 0 is returned
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn signorini_surface_pair_obstacle(

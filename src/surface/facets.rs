@@ -12,7 +12,7 @@ use super::fitted_normals::SMOOTH;
 use super::mesh::Side;
 use super::on_chords::on_chords;
 use super::pairs::{SurfacePairs, Weight};
-use super::settings::{Pairing, SurfaceSettings, TrueShape};
+use super::settings::{SurfaceSettings, TrueShape};
 use super::shape::padded;
 use crate::error::Error;
 use crate::linalg::vector3::Vector3;
@@ -25,10 +25,11 @@ const ALLOWED: f64 = 0.1;
 /// touches, or is loose, does so at a few of its pairs.
 const A_PART: f64 = 4.0;
 
-/// How far true surfaces stand off the facets of both sides at each pair, in the mean.
+/// How far true surfaces stand off the facets of both sides at each pair, in the mean. Where the slave is seen `by_nodes`, these have
+/// gaps, and its faces none.
 pub(super) fn stand_off(
     [slave, master]: [&Side<'_>; 2],
-    settings: &SurfaceSettings,
+    (settings, by_nodes): (&SurfaceSettings, bool),
     found: &mut SurfacePairs,
 ) -> Result<(), Error> {
     // Those of sides that are tied fit.
@@ -36,11 +37,10 @@ pub(super) fn stand_off(
         return Ok(());
     }
     let [own, opposite] = settings.shapes.map(|shape| shape == TrueShape::Facets);
-    // Of nodes against surfaces slave nodes are on the true surface.
-    let own = own && settings.pairing == Pairing::DualMortar;
-    let of_side =
-        |side, is_of_facets| if is_of_facets { at_all_nodes(side) } else { Ok(Vec::new()) };
-    let sides = [of_side(slave, own)?, of_side(master, opposite)?];
+    let of_side = |side, is_of_facets, by_nodes| {
+        if is_of_facets { at_all_nodes(side, by_nodes) } else { Ok(Vec::new()) }
+    };
+    let sides = [of_side(slave, own, by_nodes)?, of_side(master, opposite, false)?];
     let mean = |away: &[f64], nodes: &[Weight]| -> f64 {
         nodes.iter().map(|(node, part)| part * away.get(*node).unwrap_or(&0.0)).sum()
     };
@@ -54,8 +54,8 @@ pub(super) fn stand_off(
 }
 
 /// How far the surface stands off at each node: off a node on a chord by its sagitta, which the rows of pairs carry through faces, and
-/// by the mean of what the faces around a node have beside that; zero at other nodes.
-fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
+/// by the mean of what the faces around a node have beside that, unless nodes alone are seen; zero at other nodes.
+fn at_all_nodes(side: &Side<'_>, by_nodes: bool) -> Result<Vec<f64>, Error> {
     let (normals, on_chords) = (Normals::of(side)?, on_chords(side)?);
     // Of faces, and of sagittas: sums, and how many there are.
     let mut sums = vec![[[0.0; 2]; 2]; normals.at_nodes.len()];
@@ -75,7 +75,7 @@ fn at_all_nodes(side: &Side<'_>) -> Result<Vec<f64>, Error> {
                 }
             }
         }
-        for &node in face.nodes {
+        for &node in face.nodes.iter().filter(|_| !by_nodes) {
             let [[sum, count], _] = &mut sums[node];
             *sum += mean;
             *count += 1.0;

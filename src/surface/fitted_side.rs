@@ -37,6 +37,11 @@ impl FittedSide {
         Ok(FittedSide { normals, on_chords })
     }
 
+    /// The coordinates of all nodes, on the surface; `None`: where they stand.
+    pub(super) fn places(self) -> Option<Vec<f64>> {
+        Some(self.on_chords?.places)
+    }
+
     /// A face of the side as a patch.
     pub(super) fn patch(&self, side: &Side<'_>, at: usize) -> Patch {
         match &self.on_chords {

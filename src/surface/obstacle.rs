@@ -11,6 +11,7 @@ use super::self_overlap;
 use super::settings::SurfaceSettings;
 use super::symmetry::OnPlanes;
 use super::tree::Tree;
+use super::true_shape::true_places;
 use super::unit::Unit;
 use crate::error::{Argument, Error, index};
 use crate::linalg::vector3::Vector3;
@@ -56,6 +57,7 @@ pub(super) fn checked(shape: &Obstacle, dim: usize, unit: &Unit) -> Result<Exact
 /// The settings that a shape reads: it has normals of its own and no rim, and needs no images of planes.
 pub(super) fn settings_of_shape(settings: &SurfaceSettings) -> SurfaceSettings {
     let SurfaceSettings { pairing, normals, rims, symmetry, shapes, .. } = Default::default();
+    let shapes = [settings.shapes[0], shapes[1]];
     SurfaceSettings { pairing, normals, rims, symmetry, shapes, ..settings.clone() }
 }
 
@@ -72,9 +74,11 @@ pub(super) fn pairs(
     side.progress.expects(side.count());
     self_overlap::check(side, &mut Tree::new(side)?, reach)?;
     let obstacle = &Repeated::new(obstacle, settings.sector, side)?;
+    let places = true_places(side, &settings.shapes[0])?;
+    let surface = side.moved(places.as_deref().unwrap_or(side.coordinates));
     let mut facing = BTreeMap::new();
     for node in side.all_nodes() {
-        let (away, normal) = obstacle.facing(side.position(node));
+        let (away, normal) = obstacle.facing(surface.position(node));
         if normal.is_none() && away.abs() <= reach {
             return refuse(&format!(
                 "node {} stands on its axis or in its centre, where it has no normal: leave out the faces there, \

@@ -21,8 +21,8 @@ use crate::problem::checked_dim;
 /// Pairs a surface with what it may touch. Surfaces that never meet give no pairs, which is no error. `monitor` has the
 /// time limit and the callback.
 ///
-/// With a shape `search_distance`, `axisymmetric`, `close_within`, `clearance` and `tangent` are read of the settings. A mid node of a
-/// quadratic face has its corners beside it in its row then, and the gap is that of the row.
+/// With a shape `search_distance`, `axisymmetric`, `close_within`, `clearance`, `tangent`, the sector and the slave's true shape are read of
+/// the settings. A mid node of a quadratic face has its corners beside it in its row then, and the gap is that of the row.
 ///
 /// # Errors
 /// - [`Argument::Dimension`], [`Argument::Coordinates`]: a dimension other than 2 and 3, coordinates that are
@@ -100,6 +100,8 @@ fn pair_sides(
         Some(shape) => obstacle::pairs(&sides[0], (shape, &on), settings)?,
         None => search(sides.each_ref(), (&on, reach), settings)?,
     };
+    let by_nodes = shape.is_some() || settings.pairing == Pairing::NodeToSurface;
+    facets::stand_off(sides.each_ref(), (settings, by_nodes), &mut found)?;
     on.tell(&mut found.held);
     if master.is_rigid() {
         found.pairs = found.pairs.into_iter().map(SurfacePair::without_masters).collect();
@@ -141,7 +143,6 @@ fn search(
             node_to_surface::pairs(sides, on, (own, candidates), settings.normals)?
         }
     };
-    facets::stand_off(sides, settings, &mut found)?;
     if settings.keep_turns {
         keep_turns(&mut found.pairs, sides)?;
     }

@@ -15,7 +15,7 @@ impl SurfacePairs {
         }
         if let Some((pairs, most)) = self.report.large_facets {
             text += &format!(
-                "; at {pairs} pairs the facets of both sides change the interference or clearance by more than a tenth of it, by \
+                "; at {pairs} pairs facets change the interference or clearance by more than a tenth of it, by \
                  up to {}: if the surfaces are curved, give their true shapes, as their facets are larger than the interference or \
                  clearance allows",
                 short(most)

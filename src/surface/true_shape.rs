@@ -7,7 +7,7 @@
 
 use super::curved_patch::Patch;
 use super::digits::ON_PLANE;
-use super::exact_shape::ExactShape;
+use super::exact_shape::{ExactShape, Obstacle};
 use super::face::Face;
 use super::fitted_normals::SMOOTH;
 use super::fitted_side::FittedSide;
@@ -61,17 +61,10 @@ impl<'a> TrueSides<'a> {
         }
         let (mut exact, mut fitted) = ([None; 2], [None, None]);
         for (k, (side, name)) in sides.into_iter().zip(["slave", "master"]).enumerate() {
-            let refuse = |message: String| {
-                Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
-            };
             match &shapes[k] {
                 TrueShape::Facets => {}
                 TrueShape::Fitted => fitted[k] = Some(FittedSide::new(side)?),
-                TrueShape::Exact(shape) => {
-                    let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
-                    is_near(side, &shape).map_err(refuse)?;
-                    exact[k] = Some(shape);
-                }
+                TrueShape::Exact(shape) => exact[k] = Some(checked(shape, (side, name))?),
             }
         }
         Ok(Some(TrueSides { sides, exact, fitted }))
@@ -80,10 +73,7 @@ impl<'a> TrueSides<'a> {
     /// A face of the slave, 0, or of the master, 1; an image has the image of the shape.
     fn over<'s>(&self, side: usize, at: usize, face: &'s Face<'_>) -> Over<'s> {
         let patch = self.fitted[side].as_ref().map(|fitted| fitted.patch(self.sides[side], at));
-        let exact = self.exact[side].map(|shape| match self.sides[side].origin(at) {
-            Some((motion, _)) => shape.moved(&motion, self.sides[side].scale),
-            None => shape,
-        });
+        let exact = self.exact[side].map(|shape| of_face(&shape, self.sides[side], at));
         Over { face, exact, patch }
     }
 
@@ -124,6 +114,45 @@ impl<'a> TrueSides<'a> {
         };
         parts.iter().flat_map(of_part).collect()
     }
+}
+
+/// A shape of a side with a name.
+fn checked(shape: &Obstacle, (side, name): (&Side<'_>, &str)) -> Result<ExactShape, Error> {
+    let refuse = |message: String| {
+        Error::invalid(Argument::Settings, format!("shape of the {name}: {message}"))
+    };
+    let shape = shape.check(side.dim, side.scale).map_err(refuse)?;
+    is_near(side, &shape).map_err(refuse)?;
+    Ok(shape)
+}
+
+/// The shape of a face of a side; that of an image is the image of it.
+fn of_face(shape: &ExactShape, side: &Side<'_>, at: usize) -> ExactShape {
+    side.origin(at).map_or(*shape, |(motion, _)| shape.moved(&motion, side.scale))
+}
+
+/// The coordinates of all nodes of the slave on its true surface; `None`: where they stand.
+///
+/// # Errors
+/// As [`TrueSides::new`].
+pub(super) fn true_places(slave: &Side<'_>, shape: &TrueShape) -> Result<Option<Vec<f64>>, Error> {
+    let shape = match shape {
+        TrueShape::Facets => return Ok(None),
+        TrueShape::Fitted => return Ok(FittedSide::new(slave)?.places()),
+        TrueShape::Exact(shape) => checked(shape, (slave, "slave"))?,
+    };
+    let (dim, mut places) = (slave.dim, slave.coordinates.to_vec());
+    for at in 0..slave.count() {
+        slave.progress.goes_on()?;
+        let shape = of_face(&shape, slave, at);
+        for &node in slave.nodes(at) {
+            let x = slave.position(node);
+            let (distance, gradient) = shape.distance(x);
+            let place = (x - distance * gradient.unwrap_or_default()) / slave.scale;
+            places[dim * node..dim * (node + 1)].copy_from_slice(&place.as_slice()[..dim]);
+        }
+    }
+    Ok(Some(places))
 }
 
 /// Refuses a shape of which a face is no facet, as that of a chamfer at the end of a bore: one with a corner as far away as a face leads that

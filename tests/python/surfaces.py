@@ -357,11 +357,31 @@ class Blocks(unittest.TestCase):
                 if isinstance(gap, dict) and not of:
                     continue
                 loads = np.zeros((2, 128) if np.ndim(gap) == 2 else 128)
-                with self.assertWarnsRegex(UserWarning, f"^{of}at 24 pairs the facets of both sides .* larger than the interference"):
+                with self.assertWarnsRegex(UserWarning, f"^{of}at 24 pairs facets change .* larger than the interference"):
                     model.solve(loads, gap, mu=0.0)
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 model.solve(np.zeros(128), gap=-1e-3, mu=0.0)
+
+    def test_deep_overlaps_beside_pairs(self):
+        """Slave faces of 1 / 50 over a line that rises by .1 into their body: those that overlap by more have no pairs, which is warned of."""
+        count = 50
+        fine = np.stack([np.arange(count + 1) / count, np.zeros(count + 1)], 1)
+        places = np.concatenate([fine, [[0.0, -0.0013], [1.0, 0.0987]]])
+        slave, size = np.arange(count)[:, None] + [0, 1], 2 * len(places)
+        springs = (np.ones(size), np.arange(size), np.arange(size + 1))
+        for named, of in ((lambda one: one, ""), (lambda one: {"fit": one}, "zone 'fit': ")):
+            contact = signorini.pair_surfaces(places, slave, [[count + 2, count + 1]])
+            middles = (np.arange(count) + 0.5) / count
+            deep = np.flatnonzero(0.1 * middles - 0.0013 > 1 / count)
+            self.assertEqual(contact.beyond.tolist(), deep.tolist())
+            most = f"{0.1 * middles[-1] - 0.0013:.4g}"
+            with self.assertWarnsRegex(UserWarning, f"^{of}{len(deep)} slave faces overlap a master by more .* face 49 by {most}: .* above {most}"):
+                signorini.Model.from_surfaces(springs, named(contact))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                whole = signorini.pair_surfaces(places, slave, [[count + 2, count + 1]], search_distance=0.1)
+                signorini.Model.from_surfaces(springs, named(whole))
 
     def test_any_mesh(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::surfaces::{pair, steps};
-use signorini::surface::{Obstacle, SurfacePairs, SurfaceSettings, TrueShape};
+use crate::surfaces::{flat, pair, pair_with_obstacle, steps};
+use signorini::surface::{Faces, Obstacle, SurfacePairs, SurfaceSettings, TrueShape};
 
 /// Nodes and faces of a line.
 type Line = (Vec<[f64; 3]>, Vec<Vec<usize>>);
@@ -135,6 +135,43 @@ fn mid_nodes_on_chords_are_no_points_of_the_surface() {
             let (_, most) = told.unwrap_or((0, apart(&facets)));
             let error = (most - apart(&facets)).abs();
             assert!(error < half * half * apart(&facets), "{context}: {most:e}, {error:e}");
+        }
+    }
+}
+
+/// A circle whose mid nodes stand on chords, in a rigid bore and around a rigid disc: the sagitta of these is told, to the square of half a
+/// division. By the circle's shape, or fitted, all gaps are the interference.
+#[test]
+fn mid_nodes_on_chords_are_told_and_fitted_against_a_rigid_circle() {
+    for (divisions, hollow) in [12, 24, 64].into_iter().flat_map(|n| [(n, true), (n, false)]) {
+        let (nodes, mut faces) = on_chords(circle(divisions, (1.0, 0.0), 0.1, false));
+        faces.iter_mut().filter(|_| !hollow).for_each(|face| face.swap(0, 1));
+        let coordinates: Vec<f64> = nodes.iter().flat_map(|node| [node[0], node[1]]).collect();
+        let (start, list) = flat(&faces);
+        let half = PI / divisions as f64;
+        let sagitta = 1.0 - half.cos();
+        let own = Obstacle::Sphere { centre: [0.0; 3], radius: 1.0, hollow: false };
+        let interference = 3.0 * sagitta;
+        let radius = if hollow { 1.0 - interference } else { 1.0 + interference };
+        let rigid = Obstacle::Sphere { centre: [0.0; 3], radius, hollow };
+        for shape in [TrueShape::Facets, TrueShape::Exact(own), TrueShape::Fitted] {
+            let shapes = [shape, TrueShape::Facets];
+            let settings = SurfaceSettings { shapes, ..Default::default() };
+            let slave = Faces { start: &start, nodes: &list };
+            let found = pair_with_obstacle(2, &coordinates, slave, &rigid, &settings).unwrap();
+            let context = format!("{divisions} {hollow} {shape:?}");
+            assert_eq!(found.pairs.len(), 2 * divisions, "{context}");
+            if shape == TrueShape::Facets {
+                let (count, most) = found.report.large_facets.expect(&context);
+                assert_eq!(count, divisions, "{context}");
+                assert!((most - sagitta).abs() < half * half * sagitta, "{context}: {most}");
+                continue;
+            }
+            assert_eq!(found.report.large_facets, None, "{context}");
+            let off = found.pairs.iter().map(|pair| (pair.gap + interference).abs());
+            // Rounding of numbers of size one, and of fits as between two sides.
+            let least = if shape == TrueShape::Fitted { half.powi(6) } else { 1e-14 };
+            assert!(off.fold(0.0, f64::max) < least, "{context}");
         }
     }
 }

@@ -5,8 +5,11 @@ use signorini::surface::{
     Faces, KeptSurfaces, Master, Penetration, SurfaceSettings, Surfaces, pair_surfaces,
 };
 
+/// Nodes of a closed line, turning to the left.
+type Outline = Vec<[f64; 2]>;
+
 /// The boundary of a rectangle, turning to the left, with its sides divided.
-fn boundary([x, y]: [[f64; 2]; 2], [nx, ny]: [usize; 2]) -> Vec<[f64; 2]> {
+fn boundary([x, y]: [[f64; 2]; 2], [nx, ny]: [usize; 2]) -> Outline {
     let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
     let sides = (0..4).flat_map(|side| {
         let ([from, to], parts) = ([corners[side], corners[(side + 1) % 4]], [nx, ny][side % 2]);
@@ -19,7 +22,7 @@ fn boundary([x, y]: [[f64; 2]; 2], [nx, ny]: [usize; 2]) -> Vec<[f64; 2]> {
 }
 
 /// Closed lines through lists of nodes, by their faces with outward normals to the right.
-fn closed(lists: &[Vec<[f64; 2]>], nodes: &mut Vec<[f64; 2]>) -> Vec<Vec<usize>> {
+fn closed(lists: &[Outline], nodes: &mut Vec<[f64; 2]>) -> Vec<Vec<usize>> {
     let mut faces = Vec::new();
     for list in lists {
         let first = nodes.len();
@@ -31,7 +34,7 @@ fn closed(lists: &[Vec<[f64; 2]>], nodes: &mut Vec<[f64; 2]>) -> Vec<Vec<usize>>
 
 /// The penetration after a block has moved against plates, as slave or as master, all turned by an angle.
 fn after(
-    (block, plates): (&[Vec<[f64; 2]>], &[Vec<[f64; 2]>]),
+    (block, plates): (&[Outline], &[Outline]),
     (is_slave, angle): (bool, f64),
     motion: [f64; 2],
 ) -> Penetration {

@@ -21,8 +21,8 @@ from ._results import Enclosure, Output, Result, certified
 from ._sparse import ContactPairs, Matrix, entries_of, is_sparse, side_by_side, supports
 from ._structures import ModelData, address, sized
 from ._surfaces import SurfacePairs
-from ._symmetry import (warn_of_facets, warn_of_gaps, warn_of_nodes_beside, warn_of_numbers, warn_of_planes, warn_of_repeats,
-                        warn_of_rings, warn_of_slips, warn_of_supports)
+from ._symmetry import (warn_of_facets, warn_of_gaps, warn_of_nodes_beside, warn_of_numbers, warn_of_overlaps, warn_of_planes,
+                        warn_of_repeats, warn_of_rings, warn_of_slips, warn_of_supports)
 from ._text import path_bytes, remark_bytes, tell
 from ._zones import Zones, by_name
 
@@ -275,6 +275,7 @@ class Model(Remade):
             warn_of_supports(one, held, name)
             warn_of_nodes_beside(one, name)
             warn_of_numbers(one, matrix, name)
+            warn_of_overlaps(one, name)
             if not one.pairs or "all slave faces look away" in one.summary:
                 tell((f"zone {name!r}: " if name else "") + one.summary)
         for name, one in list(contacts.items())[:1]:  # zones are alike

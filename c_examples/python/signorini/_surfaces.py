@@ -147,8 +147,8 @@ def pair_obstacle(coordinates, slave, obstacle, *, search_distance=0.0, dofs=Non
     """Pairs a surface with a rigid Plane, Sphere, Cylinder, Cone, Torus or RigidFaces: SurfacePairs.
 
     The rest: as for pair_surfaces; search_distance 0: no limit, and with RigidFaces as there.
-    symmetry, normals, rims, fitted, slave_shape and master_shape are read for RigidFaces alone: a shape has
-    normals of its own.
+    symmetry, normals, rims and master_shape are read for RigidFaces alone: a shape has normals of its own. slave_shape and
+    fitted tell where mid nodes on chords belong.
     """
     coordinates = points(coordinates)
     slave, rigid = _Faces("slave", slave), _Rigid(obstacle, coordinates.shape[1])

@@ -136,8 +136,21 @@ def warn_of_numbers(contact, matrix, name=None):
 
 def warn_of_facets(contact, name=None):
     """Warns of facets that change the interference or clearance of a case, if its gaps are those of the pairing."""
-    for sentence in re.findall("at [^;]* pairs the facets of both sides [^;]*", contact.summary):
+    for sentence in re.findall("at [^;]* pairs facets [^;]*", contact.summary):
         tell((f"zone {name!r}: " if name else "") + sentence)
+
+
+def warn_of_overlaps(contact, name=None):
+    """Warns of slave faces that overlap a master by more than is looked for, if some are beside pairs: these carry what the others should."""
+    overlaps = -contact.beyond_distances
+    deep = contact.beyond[overlaps > 0].tolist()
+    paired = set(contact.nodes.tolist())
+    if all(paired.isdisjoint(contact.slave_faces[face]) for face in deep):
+        return
+    most = overlaps.max()
+    tell((f"zone {name!r}: " if name else "") + f"{len(deep)} slave faces overlap a master by more than is looked for, face "
+         f"{contact.beyond[overlaps.argmax()]} by {most:.4g}: they have no pairs, and pairs beside them carry what they should: give a "
+         f"search_distance above {most:.4g} to pair_surfaces, or leave these faces out if they are not meant to touch")
 
 
 def warn_of_slips(contact, d, state, name=None):
