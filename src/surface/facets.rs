@@ -19,7 +19,7 @@ use crate::linalg::vector3::Vector3;
 
 /// Facets are larger than an interference or a clearance allows if they change it by more than this part of it: pressures are wrong by
 /// as much.
-const ALLOWED: f64 = 0.1;
+pub(super) const ALLOWED: f64 = 0.1;
 
 /// They are told if they do so on one of so many parts of the area of curved faces, by how far these stand off: a round body that
 /// touches, or is loose, does so at a few of its pairs.
@@ -152,11 +152,30 @@ impl Normals {
 
 /// Pairs at which facets change gaps much.
 #[derive(Clone, Copy, Default)]
-struct Large {
-    count: usize,
+pub(super) struct Large {
+    pub(super) count: usize,
     /// The most by which they change one.
-    most: f64,
+    pub(super) most: f64,
     weight: f64,
+}
+
+impl Large {
+    /// One more pair, of which facets change the gap so much, with its weight.
+    pub(super) fn add(&mut self, change: f64, weight: f64) {
+        self.count += 1;
+        self.most = self.most.max(change);
+        self.weight += weight;
+    }
+
+    /// True if they are many beside all with such a weight.
+    pub(super) fn is_many_of(&self, of_all: f64) -> bool {
+        self.count > 0 && A_PART * self.weight >= of_all
+    }
+}
+
+/// True of a change that is clear of the digits of coordinates, of which flat faces are made too.
+pub(super) fn is_clear_of_digits(change: f64, side: &Side<'_>) -> bool {
+    ALLOWED * change > left_open(side.dim, &side.lengths().collect::<Vec<f64>>())
 }
 
 /// Number of pairs at which facets change an interference or a clearance by more than it allows, and the most by which they do; `None`:
@@ -187,20 +206,14 @@ pub(super) fn too_large(
         changes += weight * change * change;
         sizes += weight * interference * interference;
         if change > ALLOWED * interference.abs() {
-            for large in &mut large[usize::from(!presses)..] {
-                large.count += 1;
-                large.most = f64::max(large.most, change);
-                large.weight += weight;
-            }
+            large[usize::from(!presses)..].iter_mut().for_each(|large| large.add(change, weight));
         }
     }
     let [pressed, all] = large;
-    let are_many = pressed.count > 0 && A_PART * pressed.weight >= of_all;
+    let are_many = pressed.is_many_of(of_all);
     // A body that is loose all around, as a shaft in its bearing.
     let is_loose = changes > ALLOWED * ALLOWED * sizes;
     let told = if are_many { pressed } else { all };
-    // Clear of the digits of coordinates, of which flat faces are made too.
-    let digits = || left_open(slave.dim, &slave.lengths().collect::<Vec<f64>>());
-    let is_seen = || ALLOWED * told.most > digits();
-    Ok(((are_many || is_loose) && is_seen()).then_some((told.count, told.most)))
+    let is_told = (are_many || is_loose) && is_clear_of_digits(told.most, slave);
+    Ok(is_told.then_some((told.count, told.most)))
 }

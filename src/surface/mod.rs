@@ -60,6 +60,7 @@ mod projected_shapes;
 mod quadrature;
 mod rims;
 mod row;
+mod scatter;
 mod sector;
 mod sector_boundary;
 mod self_overlap;

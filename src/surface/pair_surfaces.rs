@@ -13,7 +13,7 @@ use super::tree::Tree;
 use super::turns::keep_turns;
 use super::unit::Unit;
 use super::with_images::WithImages;
-use super::{facets, mortar, node_to_surface, obstacle, self_overlap};
+use super::{facets, mortar, node_to_surface, obstacle, scatter, self_overlap};
 use crate::error::{Argument, Error};
 use crate::monitor::Monitor;
 use crate::problem::checked_dim;
@@ -116,7 +116,10 @@ fn pair_sides(
     slave.progress.goes_on()?;
     let mut found = unit.of_host(found, settings)?;
     slave.progress.goes_on()?;
-    found.report.large_facets = facets::too_large(&found, (&slave, settings))?;
+    found.report.large_facets = match facets::too_large(&found, (&slave, settings))? {
+        None => scatter::too_large(&found, (&slave, settings))?,
+        told => told,
+    };
     found.report.stand_off = Vec::new();
     Ok(found)
 }

@@ -29,6 +29,7 @@ mod reach;
 mod resultants;
 mod rounded_mids;
 mod rows;
+mod scatter;
 mod sectors;
 mod small_patches;
 mod steps;
