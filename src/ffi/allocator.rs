@@ -93,8 +93,8 @@ impl Drop for CallReserve {
 pub(super) fn want(bytes: u64) -> bool {
     let wanted = WANTED.get().saturating_add(bytes as usize);
     let held = HELD.get();
-    // Arrays come one by one: not a block for each of them.
-    let has_room = wanted <= held || grow((wanted - held).max(held / 2));
+    // Arrays come one by one: not a block for each of them. One array of all `bytes` has a block to be in.
+    let has_room = wanted <= held || grow((bytes as usize).max(held / 2));
     if has_room {
         WANTED.set(wanted);
     }

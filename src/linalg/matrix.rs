@@ -45,10 +45,13 @@ impl<'a> Matrix<'a> {
         self.size
     }
 
-    /// All entries, column by column.
-    pub fn entries(&self) -> impl Iterator<Item = f64> {
-        let Matrix { size, entries, ld } = *self;
-        (0..size).flat_map(move |j| &entries[j * ld..j * ld + size]).copied()
+    /// All entries, column by column: in memory of just their size, which a call has in reserve.
+    pub fn to_vec(self) -> Vec<f64> {
+        let mut entries = Vec::with_capacity(self.size * self.size);
+        for j in 0..self.size {
+            entries.extend_from_slice(self.column(j));
+        }
+        entries
     }
 
     /// Column `j`.

@@ -16,7 +16,7 @@ impl Model {
     /// As [`FlexibilityProblem::from_flexibility`] of the matrix.
     pub fn flexibility(dim: usize, pairs: usize, w: &[f64], ld: usize) -> Result<Self, Error> {
         let size = unknowns(checked_dim(dim)?, pairs)?;
-        let entries = Flexibility::checked_matrix(size, (w, ld))?.entries().collect();
+        let entries = Flexibility::checked_matrix(size, (w, ld))?.to_vec();
         let reduction = Box::new(FlexibilityReduction::Dense(size, entries));
         Ok(Model { dim, pairs, reduction })
     }

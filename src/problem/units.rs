@@ -177,10 +177,18 @@ fn exactly(value: f64, power: i32) -> Option<f64> {
 
 /// All numbers times a power of two; `None` where one is beyond doubles.
 fn all(values: &[f64], power: i32) -> Option<Vec<f64>> {
-    values.iter().map(|&value| exactly(value, power)).collect()
+    each(values.to_vec(), power)
 }
 
 /// The entries of a matrix times a power of two, column-major.
 fn dense(matrix: &Matrix<'_>, power: i32) -> Option<Vec<f64>> {
-    matrix.entries().map(|value| exactly(value, power)).collect()
+    each(matrix.to_vec(), power)
+}
+
+/// The numbers times a power of two, in their place.
+fn each(mut values: Vec<f64>, power: i32) -> Option<Vec<f64>> {
+    for value in &mut values {
+        *value = exactly(*value, power)?;
+    }
+    Some(values)
 }

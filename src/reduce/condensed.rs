@@ -29,7 +29,7 @@ impl CondensedReduction {
         go_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, Error> {
         let settled = settled(dim, matrix, ("K", Argument::Matrix), go_on)?;
-        let stiffness = settled.unwrap_or_else(|| matrix.entries().collect());
+        let stiffness = settled.unwrap_or_else(|| matrix.to_vec());
         Ok(CondensedReduction { size: matrix.size(), stiffness })
     }
 }
@@ -71,7 +71,7 @@ fn without_rounding(dim: usize, matrix: &Matrix<'_>, goes_on: GoesOn<'_>) -> Opt
         return None;
     }
     let root: Vec<f64> = units.iter().map(|unit| unit.sqrt()).collect();
-    let mut stiffness: Vec<f64> = matrix.entries().collect();
+    let mut stiffness = matrix.to_vec();
     let is_sound = units.iter().all(|&unit| unit > 0.0)
         && first_not_finite(&stiffness).is_none()
         && is_symmetric_beside(matrix, &root);

@@ -94,7 +94,7 @@ impl TwoBodyReduction {
         let coupling = |i: usize, j: usize| scale[i] * second.at(i, j);
         let stiffness = sum.schur_complement(size, coupling, |i, j| second.at(i, j), go_on);
         let stiffness = stiffness.ok_or_else(not_semidefinite)?;
-        let second = second.entries().collect();
+        let second = second.to_vec();
         Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
     }
 

@@ -196,6 +196,21 @@ static int32_t flexibility(struct world *w)
                                        c->mu, NULL, NULL, w->d, w->F, w->state, NULL, NULL);
 }
 
+/* Models that keep a matrix of more than a megabyte, more than a call has in reserve before it asks for any. */
+static int32_t wide_models(struct world *w)
+{
+    const chain *c = &w->wide;
+    signorini_model *flexible = NULL, *condensed = NULL, *two = NULL;
+    int32_t status = signorini_model_new_flexibility(c->dim, c->pairs, c->K, c->n, &flexible);
+    if (!status) status = signorini_model_new_condensed(c->dim, c->pairs, c->K, c->n, NULL, &condensed);
+    if (!status)
+        status = signorini_model_new_two_body(c->dim, c->pairs, c->K, c->n, c->K, c->n, NULL, &two);
+    signorini_model_free(flexible);
+    signorini_model_free(condensed);
+    signorini_model_free(two);
+    return status;
+}
+
 /* The flexibility as a sparse one, cut into two islands: parts on the diagonal of a definite matrix are definite. */
 static int32_t flexibility_sparse(struct world *w)
 {
@@ -709,6 +724,7 @@ static const struct scenario scenarios[] = {
     {"space, proof", space_proof, 0, 0},
     {"six pairs", small_auto, 0, 0},
     {"flexibility", flexibility, 0, 0},
+    {"models of 200 pairs", wide_models, 0, 0},
     {"sparse flexibility", flexibility_sparse, 0, 0},
     {"certify", certified, 0, 0},
     {"prove", proved, 0, 0},
