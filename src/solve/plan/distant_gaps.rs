@@ -27,28 +27,40 @@ const ROUNDS: usize = 3;
 
 /// Solves by the method that is chosen, if it fits, or by the default; ties are taken out before.
 pub fn solve(call: &Call<'_>) -> Result<Solution, Error> {
-    if let Some(found) = without_ties(call, solve) {
-        return found;
-    }
+    without_ties(call, untied).unwrap_or_else(|| untied(call))
+}
+
+/// Solves a problem of which no pair is tied.
+fn untied(call: &Call<'_>) -> Result<Solution, Error> {
     let row = chosen(call.contact, call.settings.method)?;
     if let Some(found) = without_obstacles(FAR, row, call) {
         return found;
     }
-    let found = by_method(row, call);
+    let mut found = by_method(row, call);
     if row.is_none()
-        && let Ok(Solution { status: Status::Stalled, .. }) = &found
+        && let Ok(solution) = &mut found
+        && solution.status == Status::Stalled
     {
-        for far in FAR_OF_UNSOLVED {
-            let other = without_obstacles(far, row, call).transpose()?;
-            if let Some(other) = other.filter(|other| other.status == Status::Solved) {
-                return Ok(other);
-            }
-        }
+        solve_nearer(call, solution)?;
     }
     found
 }
 
+/// Solves without obstacles that are less far away where `found` is no solution.
+#[inline(never)]
+fn solve_nearer(call: &Call<'_>, found: &mut Solution) -> Result<(), Error> {
+    for far in FAR_OF_UNSOLVED {
+        let other = without_obstacles(far, None, call).transpose()?;
+        if let Some(other) = other.filter(|other| other.status == Status::Solved) {
+            *found = other;
+            break;
+        }
+    }
+    Ok(())
+}
+
 /// Solves without the obstacles that are `far` away; `None` if there are none, or if they matter.
+#[inline(never)] // results are large, and what solves needs the stack
 fn without_obstacles(
     far: f64,
     row: Option<&MethodRow>,

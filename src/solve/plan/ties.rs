@@ -36,7 +36,8 @@ fn on_others(call: &Call<'_>, solve: Solve) -> Result<Solution, Error> {
     let whole = call.contact.problem();
     let others = Others::of(call.contact);
     let start = call.start.map(|start| others.gathered(start));
-    let mut solution = {
+    // A result is large, and a solution needs the stack: it stays where it is.
+    let mut found = {
         let problem = others.problem(whole);
         let contact = &Contact::new(&problem);
         let start = start.as_deref().filter(|_| !contact.is_at_rest());
@@ -45,16 +46,20 @@ fn on_others(call: &Call<'_>, solve: Solve) -> Result<Solution, Error> {
             solve(&Call { contact, settings, start, ..*call })
         };
         let tolerance = call.settings.tolerance;
-        let found = with_tolerance(tolerance)?;
-        let (is_solved, of_others) = (found.status == Status::Solved, found.certificate.eta);
-        let solution = others.on_whole(call, found);
+        let mut found = with_tolerance(tolerance);
+        let Ok(solution) = &mut found else { return found };
+        let (is_solved, of_others) = (solution.status == Status::Solved, solution.certificate.eta);
+        others.put_on_whole(call, solution);
         // Where ties move bodies far, the forces that measure the others are larger than those of the whole.
         let enough = 0.5 * of_others * tolerance / solution.certificate.eta;
-        match is_solved && solution.status != Status::Solved {
-            true => others.on_whole(call, with_tolerance(enough.max(SMALLEST_TOLERANCE))?),
-            false => solution,
+        if is_solved && solution.status != Status::Solved {
+            found = with_tolerance(enough.max(SMALLEST_TOLERANCE));
+            let Ok(solution) = &mut found else { return found };
+            others.put_on_whole(call, solution);
         }
+        found
     };
+    let Ok(solution) = &mut found else { return found };
     // What proves something of the others may prove nothing of the whole.
     let is_proof = |motion: &Vec<f64>| is_escape_of(call.contact, motion);
     if solution.status == Status::NoEquilibrium
@@ -67,7 +72,7 @@ fn on_others(call: &Call<'_>, solve: Solve) -> Result<Solution, Error> {
     if let Some(remembered) = whole.remembered() {
         remembered.leave(others.block);
     }
-    Ok(solution)
+    found
 }
 
 /// The block of the pairs that are not tied.
@@ -144,8 +149,9 @@ impl Others {
         all
     }
 
-    /// The solution on these pairs, as a result of the whole problem.
-    fn on_whole(&self, call: &Call<'_>, found: Solution) -> Solution {
+    /// Makes a result of the whole problem of the solution on these pairs.
+    #[inline(never)]
+    fn put_on_whole(&self, call: &Call<'_>, found: &mut Solution) {
         let (contact, settings) = (call.contact, call.settings);
         let nothing = || vec![0.0; self.held.len()];
         let displacements = |own: &[f64]| self.spread(own, self.held.clone());
@@ -159,7 +165,7 @@ impl Others {
         let certificate = at.certificate(contact).clone().with_rounding(settings.tolerance);
         let holds = certificate.holds(settings.tolerance);
         let (status, message) = match found.status {
-            Status::NoEquilibrium => (found.status, found.message),
+            Status::NoEquilibrium => (found.status, found.message.clone()),
             Status::Solved => at.ending.status(settings, &certificate),
             _ if holds => Ending::Done.status(settings, &certificate),
             // The sentence of the others, with the measure of the whole.
@@ -169,26 +175,19 @@ impl Others {
                 (found.status, found.message.marked().replace(&others, &whole).into())
             }
         };
-        let mut solution = Solution {
-            status,
-            message,
-            d: at.d().to_vec(),
-            d_low: at.low_part(),
-            certificate,
-            recession: found.recession.map(|motion| self.spread(&motion, nothing())),
-            escape: found.escape.map(|Escape { motion, unbalanced }| Escape {
-                motion: self.spread(&motion, nothing()),
-                unbalanced: self.spread(&unbalanced, nothing()),
-            }),
-            errors: at.errors,
-            definite: Vec::new(),
-            ..found
-        };
-        solution.change_second(settings.tolerance, |second| {
+        (found.status, found.message) = (status, message);
+        (found.d, found.d_low) = (at.d().to_vec(), at.low_part());
+        found.certificate = certificate;
+        found.recession = found.recession.take().map(|motion| self.spread(&motion, nothing()));
+        found.escape = found.escape.take().map(|Escape { motion, unbalanced }| Escape {
+            motion: self.spread(&motion, nothing()),
+            unbalanced: self.spread(&unbalanced, nothing()),
+        });
+        (found.errors, found.definite) = (at.errors, Vec::new());
+        found.change_second(settings.tolerance, |second| {
             second.d = displacements(&second.d);
             second.d_low = self.spread(&second.d_low, nothing());
             second.certificate = measure(contact, (&second.d, &second.d_low), &[]);
         });
-        solution
     }
 }

@@ -58,12 +58,25 @@ pub fn solve(
                 from_forces(problem, Means { settings, ..means }, (&force, compliance))
             })
         })?;
-    let RoundsFound { mut solution, pattern } = found;
-    if solution.status != Status::Stalled {
-        return Ok(solution);
+    if found.solution.status != Status::Stalled {
+        return Ok(found.solution);
     }
+    Ok(unsettled(contact, means, (found, proof), (&force, number)))
+}
+
+/// What rounds that do not settle leave from the start `force`: rest, a proof that there is no solution, one from points
+/// that are drawn, or why there is none.
+#[inline(never)] // rounds need the stack
+fn unsettled(
+    contact: &Contact<'_, Flexibility<'_>>,
+    means: Means<'_>,
+    (found, proof): (RoundsFound, Option<Vec<f64>>),
+    (force, number): (&[f64], &dyn Fn(usize) -> usize),
+) -> Solution {
+    let (problem, settings) = (contact.problem(), means.settings);
+    let RoundsFound { mut solution, pattern } = found;
     if let Some(rest) = at_rest(contact, settings, &solution) {
-        return Ok(rest);
+        return rest;
     }
     let eta = solution.certificate.eta;
     if let Some(proof) = proof.or_else(|| at_a_wall(problem)) {
@@ -72,7 +85,7 @@ pub fn solve(
         normalise(&mut forces);
         solution.status = Status::NoEquilibrium;
         solution.recession = Some(forces);
-        return Ok(solution);
+        return solution;
     }
     if pattern.is_none()
         && let Some(cause) = cause(problem.relation(), means.monitor)
@@ -81,14 +94,15 @@ pub fn solve(
         solution.message = said.into();
     }
     if settings.method == Method::Auto
-        && let Some(found) = drawn(contact, means, &force)
+        && let Some(found) = drawn(contact, means, force)
     {
-        return Ok(found);
+        return found;
     }
-    Ok(solution)
+    solution
 }
 
 /// What Newton's method on `W` itself, and methods on its inverse, make of the problem, if that is the end.
+#[inline(never)] // rounds need the stack
 fn without_springs(
     contact: &Contact<'_, Flexibility<'_>>,
     means: Means<'_>,

@@ -15,7 +15,7 @@ use crate::certificate::{Certificate, measure};
 use crate::error::{Argument, Error};
 use crate::law::Contact;
 use crate::linalg::matrix::Matrix;
-use crate::monitor::Watch;
+use crate::monitor::{Stop, Watch};
 use crate::problem::{ContactProblem, Flexibility, FlexibilityForm, FlexibilityProblem, SparseW};
 use crate::settings::{Method, SMALLEST_TOLERANCE, Settings};
 use crate::solve::part::PairData;
@@ -31,19 +31,18 @@ pub fn solve(
     let FlexibilityForm::Sparse(matrix) = &problem.relation().form else {
         return flexibility::solve(problem, means, start, &|pair| pair);
     };
-    let contact = &Contact::new(problem);
-    let found = in_turn((contact, matrix), means, start)?;
-    Ok(found.solution(contact, means.settings))
+    in_turn((problem, matrix), means, start)
 }
 
-/// Solves island by island.
+/// Solves island by island. A function of its own, and so are its parts: a dense `W` needs the stack.
+#[inline(never)]
 fn in_turn(
-    (contact, matrix): (&Contact<'_, Flexibility<'_>>, &SparseW),
+    (problem, matrix): (&FlexibilityProblem<'_>, &SparseW),
     means: Means<'_>,
     start: Option<&[f64]>,
-) -> Result<Found, Error> {
+) -> Result<Solution, Error> {
+    let contact = &Contact::new(problem);
     let Means { settings, monitor, .. } = means;
-    let problem = contact.problem();
     let (islands, dim) = (&matrix.islands, problem.dim());
     let several = islands.len() > 1;
     let mut own = settings.clone();
@@ -74,27 +73,32 @@ fn in_turn(
         first = part.end;
         let island = island((problem, &ordered), (&data, part), &entries)?;
         let begin = gathered(&found.force, pairs, dim);
-        let contact = &Contact::new(&island);
-        let newton = on_itself(contact, means)
-            .map(|mut equations| equations.solve(equations.coordinates(&begin), own.tolerance));
-        if let Some(newton) = newton
-            && newton.ending == Ending::Done
-            && newton.point.eta <= own.tolerance
-        {
-            scatter(&newton.point.force, pairs, dim, &mut found.force);
-            found.add_quick(newton.systems);
+        if let Some((force, systems)) = by_newton(&island, means, &begin) {
+            scatter(&force, pairs, dim, &mut found.force);
+            found.add_quick(systems);
             continue;
         }
         let begin = start.map(|_| &begin[..]);
-        let solution = flexibility::solve(&island, means, begin, &|pair| pairs[pair])
-            .map_err(|error| if several { in_island(error, pairs) } else { error })?;
-        let stops = solution.status.stop().is_some();
-        found.add(pairs, dim, solution);
-        if stops {
+        let solved = flexibility::solve(&island, means, begin, &|pair| pairs[pair]);
+        if found.add(pairs, dim, solved)?.is_some() {
             break;
         }
     }
-    Ok(found)
+    Ok(found.solution(contact, settings))
+}
+
+/// The forces that Newton's method on an island's own `W` finds, with the number of its systems; `None` if that fails.
+#[inline(never)]
+fn by_newton(
+    island: &FlexibilityProblem<'_>,
+    means: Means<'_>,
+    begin: &[f64],
+) -> Option<(Vec<f64>, u64)> {
+    let (contact, tolerance) = (&Contact::new(island), means.settings.tolerance);
+    let mut equations = on_itself(contact, means)?;
+    let found = equations.solve(equations.coordinates(begin), tolerance);
+    let is_solved = found.ending == Ending::Done && found.point.eta <= tolerance;
+    is_solved.then_some((found.point.force, found.systems))
 }
 
 /// The largest island of a sparse `W`, in words.
@@ -158,7 +162,17 @@ struct Found {
 }
 
 impl Found {
-    fn add(&mut self, pairs: &[usize], dim: usize, solution: Solution) {
+    /// Adds the result of an island; what ended the call there, if anything did.
+    #[inline(never)]
+    fn add(
+        &mut self,
+        pairs: &[usize],
+        dim: usize,
+        solved: Result<Solution, Error>,
+    ) -> Result<Option<Stop>, Error> {
+        let in_words = |error| if self.islands > 1 { in_island(error, pairs) } else { error };
+        let solution = solved.map_err(in_words)?;
+        let stop = solution.status.stop();
         scatter(&solution.certificate.force, pairs, dim, &mut self.force);
         self.solved += usize::from(solution.status == Status::Solved);
         self.factorisations += solution.factorisations;
@@ -171,6 +185,7 @@ impl Found {
         if self.worst.as_ref().is_none_or(is_worse) {
             self.worst = Some((pairs.to_vec(), solution));
         }
+        Ok(stop)
     }
 
     /// Solves a pair that is an island by Newton's method; false if that fails.
@@ -203,6 +218,7 @@ impl Found {
     }
 
     /// The result of the whole.
+    #[inline(never)]
     fn solution(self, contact: &Contact<'_, Flexibility<'_>>, settings: &Settings) -> Solution {
         let problem = contact.problem();
         let d = problem.relation().relative(&self.force);

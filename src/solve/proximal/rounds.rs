@@ -210,6 +210,12 @@ impl<R: Redundant> Rounds<'_, '_, R> {
     fn ends_with_next(&mut self) -> Result<bool, Error> {
         let rough = self.tolerance();
         let round = self.round(rough)?;
+        Ok(self.ends_with(round, rough))
+    }
+
+    /// Goes on from a round that was solved to a `rough` tolerance. Returns `true` if it is the last one.
+    #[inline(never)] // rounds need the stack
+    fn ends_with(&mut self, round: Solution, rough: f64) -> bool {
         let failed = round.status == Status::Stalled;
         let force = match round.status {
             Status::Solved | Status::Stalled => {
@@ -227,7 +233,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
                 true => _ = self.keep(found, false, false),
                 false => self.springs.change(true),
             }
-            return Ok(softest);
+            return softest;
         }
         let change: Vec<f64> = force.iter().zip(&self.force).map(|(a, b)| a - b).collect();
         self.changes = [self.changes[1], norm_inf(&change)];
@@ -254,7 +260,7 @@ impl<R: Redundant> Rounds<'_, '_, R> {
         self.lowered = self.springs.compliance() < before;
         self.last = eta;
         let ends = self.keep(found, halves, settled);
-        Ok(ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS)
+        ends || self.growth.pattern().is_some() || self.idle >= IDLE_ROUNDS
     }
 
     /// The tolerance of the next round. The springs leave the first rounds fewer digits than the problem asks for, and later

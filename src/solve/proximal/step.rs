@@ -33,13 +33,15 @@ pub fn step<R: Relation>(
     let law = problem.law();
     let problem = ContactProblem::with_relation(relation, dim, &gap, law, Some(&slip))?;
     let contact = &Contact::new(&problem);
-    let mut solution = solve(&Call::new(contact, settings, monitor))?;
+    // A result is large, and a solution needs the stack: it stays where it is.
+    let mut found = solve(&Call::new(contact, settings, monitor));
+    let Ok(solution) = &mut found else { return found };
     if solution.status == Status::NoEquilibrium {
         // Springs do no work on motions of the bodies that move with them: the escape is that of the bodies.
         let balance = Balance::new(contact, monitor);
-        rigid::describe(contact, &mut solution, balance, Some(solve), monitor)?;
+        rigid::describe(contact, solution, balance, Some(solve), monitor)?;
     }
-    Ok(solution)
+    found
 }
 
 /// The result of displacements `d` and forces that a method has ended with, and the number of its systems.
