@@ -78,13 +78,19 @@ impl Equations<'_> {
         Ok(places)
     }
 
-    /// The equations, each behind those of the dependents that it names.
+    /// The equations of the dependents of which an equation makes its own: not those that it names with coefficient 0.
+    fn awaited(&self, k: usize, places: &HashMap<usize, usize>) -> impl Iterator<Item = usize> {
+        let named = self.terms(k).filter(|(_, a)| *a != 0.0);
+        named.filter_map(|(dof, _)| places.get(&dof).copied())
+    }
+
+    /// The equations, each behind those of the dependents of which it makes its own.
     fn order(&self, places: &HashMap<usize, usize>) -> Result<Vec<usize>, Error> {
         let count = self.dependent.len();
         let (mut waits_for, mut awaited_by) = (vec![0; count], vec![Vec::new(); count]);
         for (k, waits_for) in waits_for.iter_mut().enumerate() {
-            for other in self.terms(k).filter_map(|(dof, _)| places.get(&dof)) {
-                awaited_by[*other].push(k);
+            for other in self.awaited(k, places) {
+                awaited_by[other].push(k);
                 *waits_for += 1;
             }
         }
@@ -110,8 +116,7 @@ impl Equations<'_> {
         let (mut path, mut at) = (Vec::new(), first);
         while !path.contains(&at) {
             path.push(at);
-            let waiting = self.terms(at).filter_map(|(dof, _)| places.get(&dof));
-            at = waiting.copied().find(|&k| waits_for[k] > 0).unwrap_or(at);
+            at = self.awaited(at, places).find(|&k| waits_for[k] > 0).unwrap_or(at);
         }
         let begin = path.iter().position(|&k| k == at).unwrap_or(0);
         let name = |k: &usize| index(self.dependent[*k]).to_string();
@@ -143,7 +148,7 @@ impl Dependents {
         let places = equations.places()?;
         let mut found = Dependents::default();
         for k in equations.order(&places)? {
-            let is_nothing = |&(dof, _): &(usize, f64)| dof >= size && !found.have(dof);
+            let is_nothing = |&(dof, _): &(usize, f64)| dof >= size && !places.contains_key(&dof);
             if let Some((dof, _)) = equations.terms(k).find(is_nothing) {
                 let (equation, dof) = (index(k), index(dof));
                 return refuse(format!(
@@ -154,6 +159,14 @@ impl Dependents {
             // The cosine of a right angle, or the arm of a node on the axis, is the rounding of zero and no number of its own.
             let least = ROUNDING * largest(&terms);
             terms.retain(|(_, a)| a.abs() > least);
+            // Energies have its square.
+            if let Some((dof, _)) = terms.iter().find(|(_, a)| !(a * a).is_finite()) {
+                let (equation, dof) = (index(k), index(*dof));
+                return refuse(format!(
+                    "equation {equation}: the coefficient of degree of freedom {dof} overflows; choose units in \
+                     which it is smaller"
+                ));
+            }
             found.terms.insert(equations.dependent[k], terms);
         }
         Ok(found)

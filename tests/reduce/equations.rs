@@ -199,6 +199,21 @@ fn long_chains_are_followed() {
     assert_eq!(one(1001), one(1));
 }
 
+/// A term with coefficient 0 says nothing: it makes no circle, in any order.
+#[test]
+fn terms_of_nothing_are_none() {
+    let along = |dof: usize| vec![vec![(0, vec![1.0, 0.0]), (dof, vec![0.0, 1.0])]];
+    let stiffness = |dof: usize, equations: Vec<(usize, Terms)>| {
+        let small = Small { rows: along(dof), equations, fixed: vec![] };
+        small.model().unwrap().stiffness().to_vec()
+    };
+    let plain = stiffness(1, vec![]);
+    let (follows, closes) = ((5, vec![(6, 1.0)]), (6, vec![(5, 0.0), (1, 1.0)]));
+    assert_eq!(stiffness(5, vec![follows.clone(), closes.clone()]), plain);
+    assert_eq!(stiffness(5, vec![closes, follows]), plain);
+    assert_eq!(stiffness(5, vec![(5, vec![(5, 0.0), (1, 1.0)])]), plain);
+}
+
 /// Two springs of 2 and 3, one pair, degrees of freedom 0 and 1.
 struct Small {
     rows: Vec<Vec<(usize, Vec<f64>)>>,
@@ -307,6 +322,10 @@ fn what_is_wrong_is_named() {
         "equation 0: there is no degree of freedom 9, and no equation gives it",
     );
     equations(&[(7, one(0)), (8, vec![(0, f64::NAN)])], "equation 1: a coefficient is not finite");
+    equations(
+        &[(7, one(0)), (8, vec![(0, 1e200)])],
+        "equation 1: the coefficient of degree of freedom 0 overflows",
+    );
     equations(
         &[(7, one(7))],
         "equation 0: its dependent degree of freedom follows from itself, by way of 7:",
