@@ -18,7 +18,7 @@ use super::{HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
-use crate::linalg::tolerances::{MOVING, NEGLIGIBLE};
+use crate::linalg::tolerances::{MOVING, NEGLIGIBLE, ROUNDING_OF_SUM};
 use crate::linalg::vector::norm_inf;
 use crate::linalg::watched::GoesOn;
 
@@ -94,6 +94,7 @@ impl TwoBodyReduction {
         let coupling = |i: usize, j: usize| scale[i] * second.at(i, j);
         let stiffness = sum.schur_complement(size, coupling, |i, j| second.at(i, j), go_on);
         let stiffness = stiffness.ok_or_else(not_semidefinite)?;
+        let stiffness = without_rounding(stiffness, &second, dim);
         let second = second.to_vec();
         Ok(TwoBodyReduction { size, exchanged, second, scale, sum, stiffness })
     }
@@ -117,6 +118,18 @@ impl TwoBodyReduction {
     fn times_second(&self, x: &[f64]) -> Vec<f64> {
         Matrix::contiguous(self.size, &self.second).product(x)
     }
+}
+
+/// `K_rel`, all zero where the motions that one body or the other does not resist are all there are, so that rounding of
+/// `K_B` is left.
+fn without_rounding(mut stiffness: Vec<f64>, second: &Matrix<'_>, dim: usize) -> Vec<f64> {
+    let matrix = Matrix::contiguous(second.size(), &stiffness);
+    let mut units = second.units_of_groups(dim, 0.0).enumerate();
+    let is_rounding = |(i, unit): (usize, f64)| matrix.at(i, i).abs() <= ROUNDING_OF_SUM * unit;
+    if units.all(is_rounding) {
+        stiffness.fill(0.0);
+    }
+    stiffness
 }
 
 /// Vectors of the host are those of its first body, then those of its second.

@@ -410,3 +410,29 @@ fn a_body_that_rounding_holds_flies_off() {
         }
     }
 }
+
+/// Two bodies on one spring each, in directions that differ: together they move every way without a force, so that the pair
+/// meets no stiffness, and what rounding leaves of it is none.
+#[test]
+fn bodies_that_yield_every_way_have_no_stiffness() {
+    let rng = &mut Rng::with_seed(88);
+    for _ in 0..200 {
+        let mut spring = |stiffness: f64| {
+            let angle = std::f64::consts::TAU * rng.f64();
+            let (c, s) = (angle.cos(), angle.sin());
+            [c * c, c * s, c * s, s * s].map(|k| stiffness * k)
+        };
+        let (first, second) = (spring(1.0), spring(7.0));
+        // Beside nearly the same direction the rounding of the sum is not small.
+        let sine = (first[0] * second[3] + first[3] * second[0] - 2.0 * first[1] * second[1]) / 7.0;
+        if sine < 0.01 {
+            continue;
+        }
+        let Err(Error::Invalid { message, .. }) = Model::two_body(2, 1, (&first, 2), (&second, 2))
+        else {
+            panic!("{first:?} and {second:?} have a common stiffness");
+        };
+        let words = "K_rel is zero: no motion of the pairs meets a stiffness";
+        assert!(message.to_string().starts_with(words), "{message}");
+    }
+}
