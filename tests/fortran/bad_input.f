@@ -69,6 +69,9 @@ C
       CALL EXPECT('NaN in M', INFO, -2, NFAIL)
       CALL SAYS('M(3,2)', NFAIL)
       K(3, 2) = 0D0
+      CALL SGLCPS(4, K, 4, F, SGPATH, 0D0, 0, D, R, ETA, ITER, INFO)
+      CALL EXPECT('METHOD of no LCP', INFO, -5, NFAIL)
+      CALL SAYS('method: an LCP is solved by', NFAIL)
       MU(2) = -1D0
       CALL SGSOLV(2, 2, K, 4, F, GAP, SGCOUL, MU, SLIP0, 0,
      &            0D0, 0, D, R, STATE, ETA, ITER, INFO)

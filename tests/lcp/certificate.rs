@@ -2,7 +2,7 @@
 
 use crate::common::bare::Bare;
 use fastrand::Rng;
-use signorini::{LcpSolution, Method, Settings, Status};
+use signorini::{Argument, Error, Lcp, LcpSolution, Method, Monitor, Settings, Status, solve_lcp};
 
 const METHODS: [Method; 3] = [Method::Auto, Method::Lemke, Method::BlockPivoting];
 
@@ -222,5 +222,26 @@ fn a_row_of_zeros_is_proved_infeasible_in_any_unit() {
             assert_eq!(solution.status, Status::NoEquilibrium, "{seed} {data:?} {solution:?}");
             assert_eq!(data.flaw(&solution, 1e-10), None, "{seed} {data:?}\n{solution:?}");
         }
+    }
+}
+
+/// A method for contact problems alone is named; there are no settings in Fortran 77.
+#[test]
+fn methods_that_solve_none_are_named() {
+    let lcp = Lcp::new(1, &[1.0], 1, &[-1.0], None).unwrap();
+    for (method, name) in [
+        (Method::SorNested, "nested sweeps"),
+        (Method::SorDiagonal, "diagonal sweeps"),
+        (Method::Newton, "Newton's method"),
+        (Method::Path, "the path"),
+    ] {
+        let settings = Settings { method, ..Settings::default() };
+        let monitor = &mut Monitor::new(&settings, None);
+        let Err(Error::Invalid { argument, message }) = solve_lcp(&lcp, &settings, monitor) else {
+            panic!("{method:?} has solved an LCP");
+        };
+        assert_eq!(argument, Argument::Settings);
+        let words = "method: an LCP is solved by auto, block pivoting and Lemke, not by";
+        assert_eq!(message.to_string(), format!("{words} {name}"));
     }
 }

@@ -55,15 +55,20 @@ pub fn solve_lcp(
 ) -> Result<LcpSolution, Error> {
     settings.validate()?;
     check_limit(memory(lcp.size()), settings)?;
+    // Fortran 77 has no settings, and an argument METHOD.
+    let refused = |method: &str| {
+        let message =
+            format!("method: an LCP is solved by auto, block pivoting and Lemke, not by {method}");
+        Err(Error::invalid(Argument::Settings, message))
+    };
     let task = Task { lcp, magnitudes: &lcp.magnitudes(), settings, monitor };
     let pivoted = match settings.method {
         Method::Auto | Method::BlockPivoting => Some(by_pivoting(task)),
         Method::Lemke => None,
-        _ => {
-            let message =
-                "settings: an LCP is solved by the methods auto, block pivoting and Lemke";
-            return Err(Error::invalid(Argument::Settings, message));
-        }
+        Method::SorNested => return refused("nested sweeps"),
+        Method::SorDiagonal => return refused("diagonal sweeps"),
+        Method::Newton => return refused("Newton's method"),
+        Method::Path => return refused("the path"),
     };
     let done = |(solution, ending): &(LcpSolution, Ending)| {
         solution.status == Status::Solved
