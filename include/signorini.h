@@ -58,9 +58,9 @@
  *
  * Memory. A call to which the system refuses memory ends with SIGNORINI_STATUS_OUT_OF_MEMORY and
  * holds nothing; the next call works. For that a call first obtains as much address space as it may
- * need (signorini_solve_memory). Where that is limited (ulimit -v), a call needs twice its memory.
- * One refused request of the C library ends the process: 40 bytes at the first product of matrices
- * of each thread.
+ * need (signorini_solve_memory). Where limited (ulimit -v), a call needs twice its memory, a
+ * thread's first call 72 MiB more. One refused request of the C library ends the process: 40 bytes
+ * at each thread's first product of matrices.
  */
 
 #ifndef SIGNORINI_H
