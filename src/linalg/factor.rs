@@ -143,7 +143,7 @@ fn solve_cholesky(factor: MatRef<'_, f64>, columns: MatMut<'_, f64>) {
 /// Lends scratch memory to `work`. Small matrices have theirs on the stack: an allocation takes as long as their
 /// factorisation.
 fn with_scratch<R>(request: StackReq, work: impl FnOnce(&mut MemStack) -> R) -> R {
-    let mut few = [const { MaybeUninit::uninit() }; 1024];
+    let mut few = [const { MaybeUninit::uninit() }; 2048];
     if request.unaligned_bytes_required() <= few.len() {
         return work(MemStack::new(&mut few));
     }
