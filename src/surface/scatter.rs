@@ -4,8 +4,6 @@
 //! edges do not tell it, of mid nodes beside the middle of their arcs, of fits; each pair carries it by weights of both signs, a corner of a
 //! triangle with mid nodes enlarged by ten. [`super::facets`] tells in closed form what edges tell.
 
-use std::collections::BTreeSet;
-
 use super::digits::ON_PLANE;
 use super::facets::{ALLOWED, Large, is_clear_of_digits};
 use super::fitted_normals::SMOOTH;
@@ -70,15 +68,18 @@ impl<'a> Around<'a> {
     fn near(&self, node: usize) -> Vec<usize> {
         let has_mids = |&at: &usize| self.slave.corners(at).len() < self.slave.nodes(at).len();
         let rings = if self.faces[node].iter().any(has_mids) { 1 } else { 2 };
-        let mut nodes = BTreeSet::from([node]);
+        let mut nodes = vec![node];
         for _ in 0..rings {
             let faces = nodes.iter().flat_map(|&node| &self.faces[node]);
             nodes = faces.flat_map(|&at| self.slave.nodes(at)).copied().collect();
+            nodes.sort_unstable();
+            nodes.dedup();
         }
         nodes.into_iter().filter_map(|node| self.pairs[node]).collect()
     }
 
-    /// The root mean square of what is left of depths around a pair, for each degree of freedom that is left.
+    /// The root mean square of what is left of depths around a pair, for each degree of freedom that is left; where depths differ by
+    /// little, by how much they do.
     fn scatter(&self, at: usize, (pairs, dim): (&[SurfacePair], usize), depths: &[f64]) -> f64 {
         let own = &pairs[at];
         let (origin, normal) = (Vector3::from(own.point), Vector3::from(own.normal));
@@ -88,6 +89,13 @@ impl<'a> Around<'a> {
             (depths[other] > 0.0 || depths[at] <= 0.0)
                 && normal.dot(&Vector3::from(pairs[other].normal)) > SMOOTH
         });
+        let near_depths = || near.iter().map(|&other| depths[other]);
+        let [least, most] =
+            [near_depths().fold(depths[at], f64::min), near_depths().fold(depths[at], f64::max)];
+        // No more is left than that: enough where it is little.
+        if most - least <= ALLOWED * depths[at].abs() {
+            return most - least;
+        }
         let tangents = own.tangents.iter().take(dim - 1).map(|tangent| Vector3::from(*tangent));
         let along = |tangent: Vector3| {
             let place = |&other: &usize| tangent.dot(&(Vector3::from(pairs[other].point) - origin));
@@ -99,7 +107,7 @@ impl<'a> Around<'a> {
             let product = columns[first].iter().zip(&columns[second]).map(|(a, b)| a * b);
             columns.push(product.collect());
         }
-        let mut left: Vec<f64> = near.iter().map(|&other| depths[other]).collect();
+        let mut left: Vec<f64> = near_depths().collect();
         let degree = Columns::new(columns.into_iter(), ON_PLANE).take_out(&mut left).len();
         let free = near.len() - degree;
         if free > 0 { norm(&left) / (free as f64).sqrt() } else { 0.0 }
