@@ -75,7 +75,8 @@ fn at_all_nodes(side: &Side<'_>, by_nodes: bool) -> Result<Vec<f64>, Error> {
                 }
             }
         }
-        for &node in face.nodes.iter().filter(|_| !by_nodes) {
+        let seen = if by_nodes { &[] } else { face.nodes };
+        for &node in seen {
             let [[sum, count], _] = &mut sums[node];
             *sum += mean;
             *count += 1.0;

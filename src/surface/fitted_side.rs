@@ -92,7 +92,7 @@ impl OnChords {
 
     /// The side with all nodes on the surface.
     fn moved<'s>(&'s self, side: &Side<'s>) -> Side<'s> {
-        side.with(&self.places, side.faces, side.origins)
+        side.moved(&self.places)
     }
 }
 
