@@ -169,7 +169,14 @@ impl<'a> At<'a> {
     pub(super) fn shifted(self, values: &[i64], base: i64) -> Outcome<Vec<usize>> {
         let shift = |(i, value): (usize, &i64)| {
             let shifted = value.checked_sub(base).and_then(|value| usize::try_from(value).ok());
-            let refuse = || self.refuse_entry(i, format!("is {value}, less than {base}"));
+            let remedy = if base > 0 { ", add 1 to those that count from 0" } else { "" };
+            let refuse = || {
+                let wrong = format!("is {value}, less than {base}");
+                self.refuse_entry(
+                    i,
+                    format!("{wrong}: indices of this call count from {base}{remedy}"),
+                )
+            };
             shifted.map_or_else(refuse, Ok)
         };
         values.iter().enumerate().map(shift).collect()

@@ -13,6 +13,11 @@ const LEAST_AREA: f64 = 1e-10;
 
 impl Side<'_> {
     pub(super) fn check_lists(&self) -> Result<(), Error> {
+        let (dim, coordinates) = (self.dim, self.coordinates.len());
+        if !coordinates.is_multiple_of(dim) {
+            let message = format!("there are {coordinates} coordinates, no multiple of dim {dim}");
+            return Err(Error::invalid(self.of_coordinates(), message));
+        }
         self.check_start()?;
         (0..self.count()).try_for_each(|face| self.check_nodes(face))
     }

@@ -4,7 +4,7 @@ use super::exact_shape::Obstacle;
 use super::mesh::Side;
 use super::pairing_progress::PairingProgress;
 use super::surfaces::{Faces, Master, Surfaces};
-use crate::error::{Argument, Error};
+use crate::error::Argument;
 
 /// Copies of both sides before the motion, for the check after a solution.
 #[derive(Clone, Debug)]
@@ -66,9 +66,9 @@ impl KeptSurfaces {
         (name, progress): (&'static str, &'s PairingProgress<'s>),
         moved: &'s [f64],
         [start, nodes]: &'s [Vec<usize>; 2],
-    ) -> Result<[Side<'s>; 2], Error> {
+    ) -> [Side<'s>; 2] {
         let (faces, x) = (Faces { start, nodes }, (self.dim, &self.coordinates[..]));
-        let before = Side::new(name, Argument::Coordinates, x, faces, progress)?;
-        Ok([before, before.moved(moved)])
+        let before = Side::new(name, Argument::Coordinates, x, faces, progress);
+        [before, before.moved(moved)]
     }
 }

@@ -179,15 +179,15 @@ impl<'a> Side<'a> {
         Error::invalid(self.argument, format!("{} face {} {what}", self.name, self.named(face)))
     }
 
-    /// A side whose lists are in order. `argument` is that of its faces.
+    /// A side of lists that are in order, or that [`Side::check_lists`] checks next. `argument` is that of its faces.
     pub(super) fn new(
         name: &'static str,
         argument: Argument,
         (dim, coordinates): (usize, &'a [f64]),
         faces: Faces<'a>,
         progress: &'a PairingProgress<'a>,
-    ) -> Result<Side<'a>, Error> {
-        let side = Side {
+    ) -> Side<'a> {
+        Side {
             name,
             argument,
             dim,
@@ -198,14 +198,7 @@ impl<'a> Side<'a> {
             scale: 1.0,
             left_open: 0.0,
             progress,
-        };
-        if !coordinates.len().is_multiple_of(dim) {
-            let message =
-                format!("there are {} coordinates, no multiple of dim {dim}", coordinates.len());
-            return Err(Error::invalid(side.of_coordinates(), message));
         }
-        side.check_lists()?;
-        Ok(side)
     }
 
     /// These faces with other coordinates of their nodes.

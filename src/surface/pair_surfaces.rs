@@ -44,7 +44,8 @@ pub fn pair_surfaces(
 ) -> Result<SurfacePairs, Error> {
     let progress = &PairingProgress::new(monitor);
     checked_dim(dim)?;
-    let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave, progress)?;
+    let slave = Side::new("slave", Argument::SlaveFaces, (dim, coordinates), slave, progress);
+    slave.check_lists()?;
     let mut found = match master {
         Master::Faces(faces) => {
             let master = slave.opposite(faces)?;
@@ -52,12 +53,13 @@ pub fn pair_surfaces(
         }
         Master::RigidFaces { coordinates, faces } => {
             let rigid =
-                Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces, progress)?;
+                Side::new("obstacle", Argument::Obstacle, (dim, coordinates), faces, progress);
+            rigid.check_lists()?;
             pair_sides([slave, rigid], None, settings)?
         }
         Master::RigidShape(shape) => {
             let none = Faces { start: &[0], nodes: &[] };
-            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, &[]), none, progress)?;
+            let rigid = Side::new("obstacle", Argument::Obstacle, (dim, &[]), none, progress);
             pair_sides([slave, rigid], Some(&shape), &obstacle::settings_of_shape(settings))?
         }
     };

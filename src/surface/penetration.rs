@@ -92,7 +92,7 @@ impl KeptSurfaces {
             return Err(Error::invalid(Argument::Coordinates, "u has entries that are not finite"));
         }
         let progress = &PairingProgress::new(monitor);
-        let slaves = &self.before_and_after(("slave", progress), &moved, &self.slave)?;
+        let slaves = &self.before_and_after(("slave", progress), &moved, &self.slave);
         let held = &self.held(pairs, &moved, &slaves[0]);
         match &self.master {
             KeptMaster::Shape(shape) => {
@@ -110,14 +110,14 @@ impl KeptSurfaces {
             }
             KeptMaster::Faces(_) if held.asked.is_empty() => Ok(Penetration::default()),
             KeptMaster::Faces(lists) => {
-                let masters = &self.before_and_after(("master", progress), &moved, lists)?;
+                let masters = &self.before_and_after(("master", progress), &moved, lists);
                 let (near, found) = self.through_faces(held, [slaves, masters])?;
                 let mut lists = [vec![0], Vec::new()];
                 for &at in &held.asked {
                     lists[1].extend(slaves[0].nodes(at));
                     lists[0].push(lists[1].len());
                 }
-                let asked = &self.before_and_after(("slave", progress), &moved, &lists)?;
+                let asked = &self.before_and_after(("slave", progress), &moved, &lists);
                 self.masters_through((held, near), [asked, masters], found)
             }
         }
