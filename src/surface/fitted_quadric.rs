@@ -65,7 +65,8 @@ struct Places {
     axes: [Vector3; 3],
     sizes: [f64; 3],
     along: [Vec<f64>; 3],
-    /// The inverse of each place's distance.
+    /// The inverse of the square of each place's distance: near places tell more, as what a quadric leaves of other surfaces grows
+    /// with the cube. By the cube itself those of one side alone would not determine cubes.
     weights: Vec<f64>,
 }
 
@@ -86,7 +87,7 @@ impl Places {
         for (along, size) in along.iter_mut().zip(sizes).filter(|(_, size)| *size > 0.0) {
             along.iter_mut().for_each(|x| *x /= size);
         }
-        let weights = places.iter().map(|x| sizes[0] / x.norm()).collect();
+        let weights = places.iter().map(|x| (sizes[0] / x.norm()).powi(2)).collect();
         Places { axes, sizes, along, weights }
     }
 
