@@ -58,7 +58,7 @@ fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {
     let remedy = if side.is_image(at) && side.is_rigid() {
         "of an obstacle give the faces in the sector or the period alone"
     } else if side.is_image(at) {
-        "give the axis of the sector and the number of sectors, or the period, or the planes of symmetry of the whole body"
+        "give the axis of the sector and the number of sectors, or the period, or planes of symmetry of the whole body, whose angle divides a half turn"
     } else {
         "leave one of them out, or pair them in two calls if they belong to two contacts"
     };

@@ -192,6 +192,16 @@ class Mistakes(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             Model.from_surfaces(springs, signorini.pair_surfaces(at, slave, master), fixed=[0, 1, 6, 7])
+        # A clamped face with mid nodes, whose rows have negative weights at slave nodes, over a master that nothing holds.
+        corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        face = np.r_[corners, (corners + np.roll(corners, -1, axis=0)) / 2]
+        at = np.c_[np.r_[face, 4 * corners - 2], np.repeat([0.1, 0], [8, 4])]
+        contact = signorini.pair_surfaces(at, [[0, 3, 2, 1, 7, 6, 5, 4]], [[8, 9, 10, 11]])
+        held = [3 * node + axis for node in (0, 3, 7) for axis in range(3)]
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", message=".*may be any number")
+            Model.from_surfaces((np.ones(36), np.arange(36), np.arange(37)), contact, fixed=held)
+        at = lines(2)[0]
         upper, lower = (at[:3], [("line", slave)]), (lines(3)[0][3:], [("line", [[1, 0], [2, 1], [3, 2]])])
         _, _, _, springs = lines(3)
         with warnings.catch_warnings():

@@ -70,9 +70,9 @@ def warn_of_supports(contact, fixed, name=None):
         near = contact._dofs_of(np.array(sorted(around[contact.nodes[pair]])))
         if dofs.ndim == 1:  # by degree of freedom: those along the normal
             parts, is_held = weights @ normal, is_fixed[dofs]
-            is_master = ~np.isin(dofs, slave_dofs)
         else:
-            parts, is_held, is_master = weights, along(normal, ~is_fixed[dofs]), weights < 0
+            parts, is_held = weights, along(normal, ~is_fixed[dofs])
+        is_master = ~np.isin(dofs if dofs.ndim == 1 else dofs[:, 0], slave_dofs)
         if not (is_held & is_master).any() or not (parts[~is_held] != 0).any():
             continue
         free = parts[is_master & ~is_held].sum() / parts[is_master].sum()
