@@ -69,6 +69,13 @@ pub enum Argument {
     Fields,
 }
 
+impl Argument {
+    /// Refuses the argument.
+    pub(crate) fn refuse<T>(self, message: impl Into<Message>) -> Result<T, Error> {
+        Err(Error::invalid(self, message))
+    }
+}
+
 /// Which limit of the settings ended a reduction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {

@@ -48,8 +48,11 @@ impl CallReserve {
             shortage::forget();
             WANTED.set(ALWAYS);
             HELD.set(0);
-            if !take_slot() && !grow(SLOT) {
-                return None;
+            match blocks::take_slot() {
+                // SAFETY: the memory of the slot is ours until its block is returned.
+                Some(memory) => unsafe { hold(memory, SLOT, 0) },
+                None if grow(SLOT) => {}
+                None => return None,
             }
         }
         Some(CallReserve { outermost })
@@ -111,13 +114,6 @@ fn grow(bytes: usize) -> bool {
     }
     // SAFETY: so many bytes of this alignment.
     unsafe { hold(memory, bytes, bytes) };
-    true
-}
-
-fn take_slot() -> bool {
-    let Some(memory) = blocks::take_slot() else { return false };
-    // SAFETY: the memory of the slot is ours until its block is returned.
-    unsafe { hold(memory, SLOT, 0) };
     true
 }
 

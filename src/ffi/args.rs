@@ -7,8 +7,13 @@ use std::iter::repeat;
 use std::ops::Deref;
 use std::path::Path;
 
-use super::guard::{self, Failure, Outcome, refused};
+use super::guard::{self, Failure, Outcome};
 use super::place::Place;
+use super::status::{
+    SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_MEMORY_LIMIT,
+    SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
+};
+use crate::error::{Argument, Error, Limit};
 use crate::linalg::matrix::required_length;
 use crate::problem;
 
@@ -34,6 +39,8 @@ const IN_RESERVE: usize = 16;
 /// pointers of the call into slices, structures and outputs after checking them.
 pub(super) struct Arrays {
     ranges: RefCell<Vec<Range>>,
+    /// The numbers of arguments that the library knows by these names.
+    known: RefCell<Vec<(Argument, i32)>>,
 }
 
 struct Range {
@@ -67,7 +74,10 @@ impl Arrays {
     /// which nobody writes to during the call; ones that nobody else accesses, if the call writes them.
     pub(super) unsafe fn of_call() -> Self {
         // So many arrays have most calls.
-        Arrays { ranges: RefCell::new(Vec::with_capacity(16)) }
+        Arrays {
+            ranges: RefCell::new(Vec::with_capacity(16)),
+            known: RefCell::new(Vec::with_capacity(8)),
+        }
     }
 
     /// The argument number `position`.
@@ -77,9 +87,30 @@ impl Arrays {
 
     /// Dimension, pairs and unknowns, from two arguments with these numbers.
     pub(super) fn sizes(&self, at: [i32; 2], dim: i32, pairs: i64) -> Outcome<[usize; 3]> {
-        let dim = problem::checked_dim(dim).map_err(refused(|_| at[0]))?;
+        let dim = problem::checked_dim(dim).map_err(self.refused(at[0]))?;
         let pairs = self.at(at[1], "pairs").size(pairs)?;
-        Ok([dim, pairs, problem::unknowns(dim, pairs).map_err(refused(|_| at[1]))?])
+        Ok([dim, pairs, problem::unknowns(dim, pairs).map_err(self.refused(at[1]))?])
+    }
+
+    /// Why the call ends at an error of the library, which is about the argument that is [said](At::is) to be the one
+    /// that it names, else about the argument number `otherwise`.
+    pub(super) fn refused(&self, otherwise: i32) -> impl Fn(Error) -> Failure {
+        move |error| {
+            let message = error.message();
+            let code = match error {
+                Error::Invalid { argument, .. } => {
+                    let known = self.known.borrow();
+                    let found = known.iter().find(|(known, _)| *known == argument);
+                    -found.map_or(otherwise, |(_, position)| *position)
+                }
+                Error::OutOfMemory(_) => SIGNORINI_STATUS_OUT_OF_MEMORY,
+                Error::Stopped { limit: Limit::Memory, .. } => SIGNORINI_STATUS_MEMORY_LIMIT,
+                Error::Stopped { limit: Limit::Time, .. } => SIGNORINI_STATUS_TIME_LIMIT,
+                Error::Stopped { limit: Limit::Cancelled, .. } => SIGNORINI_STATUS_CANCELLED,
+                Error::File(_) => SIGNORINI_STATUS_FILE,
+            };
+            Failure { code, message }
+        }
     }
 
     /// Refuses an output that shares memory with another array.
@@ -111,6 +142,17 @@ impl<'a> At<'a> {
     /// The same argument under another name.
     pub(super) fn named(self, name: &'static str) -> Self {
         At { place: Place::of(self.position, name), ..self }
+    }
+
+    /// The library's errors about `argument` are about this one.
+    pub(super) fn is(self, argument: Argument) -> Self {
+        self.arrays.known.borrow_mut().push((argument, self.position));
+        self
+    }
+
+    /// Why the call ends at an error of the library about something in this argument.
+    pub(super) fn refused(self) -> impl Fn(Error) -> Failure + use<'a> {
+        self.arrays.refused(self.position)
     }
 
     /// A field of the argument, a structure.

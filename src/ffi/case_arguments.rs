@@ -2,21 +2,11 @@
 //! model.
 
 use super::args::Arrays;
-use super::guard::{self, Failure, Outcome, number_of};
+use super::guard::{self, Failure, Outcome};
 use super::law;
-use crate::error::Argument::{
-    self, Dimension, Gap, Law, LawChoice, LeadingDimension, Load, Matrix, Prescribed,
-    ReferenceSlip, Size,
-};
+use crate::error::Argument::{Gap, Load, Matrix, Prescribed, ReferenceSlip};
 use crate::model::{LoadCase, Model};
 use crate::problem::ContactData;
-
-/// The arguments from `dim` to `slip0`, in their order.
-pub(super) const CONDENSED: [Argument; 9] =
-    [Dimension, Size, Matrix, LeadingDimension, Load, Gap, LawChoice, Law, ReferenceSlip];
-
-/// Those from `f` to `slip0` of a load case.
-const CASE: [Argument; 6] = [Load, Prescribed, Gap, LawChoice, Law, ReferenceSlip];
 
 /// The arguments from `dim` to `slip0`, as the host hands them over.
 pub(super) struct CondensedArguments {
@@ -38,16 +28,16 @@ impl CondensedArguments {
     pub(super) fn read<'h>(&self, arrays: &'h Arrays) -> Outcome<ContactData<'h>> {
         let at = |offset, name| arrays.at(self.first + offset, name);
         let [dim, pairs, n] = arrays.sizes([self.first, self.first + 1], self.dim, self.pairs)?;
-        let (stiffness, ld) = at(2, "K").square(self.K, ("ldk", self.ldk), n)?;
+        let (stiffness, ld) = at(2, "K").is(Matrix).square(self.K, ("ldk", self.ldk), n)?;
         Ok(ContactData {
             dim,
             pairs,
             stiffness,
             ld,
-            load: at(4, "f").required(self.f, n)?,
-            gap: at(5, "gap").required(self.gap, pairs)?,
+            load: at(4, "f").is(Load).required(self.f, n)?,
+            gap: at(5, "gap").is(Gap).required(self.gap, pairs)?,
             law: law::read((at(6, "law"), self.law), (at(7, "friction"), self.friction), pairs)?,
-            reference_slip: at(8, "slip0").optional(self.slip0, n - pairs)?,
+            reference_slip: at(8, "slip0").is(ReferenceSlip).optional(self.slip0, n - pairs)?,
         })
     }
 }
@@ -89,25 +79,15 @@ impl CaseArguments {
         let (host, fixed) = (times(cases, model.host_size())?, times(cases, model.fixed_count())?);
         let (pairs, slips) = (times(cases, model.pairs())?, times(cases, slips)?);
         let all = LoadCase {
-            load: at(0, "f").matrix().required(self.f, host)?,
-            prescribed: at(1, "prescribed").optional(self.prescribed, fixed)?,
-            gap: at(2, "gap").required(self.gap, pairs)?,
+            load: at(0, "f").is(Load).matrix().required(self.f, host)?,
+            prescribed: at(1, "prescribed").is(Prescribed).optional(self.prescribed, fixed)?,
+            gap: at(2, "gap").is(Gap).required(self.gap, pairs)?,
             law: law::read((at(3, "law"), self.law), (at(4, "friction"), self.friction), pairs)?,
-            reference_slip: at(5, "slip0").optional(self.slip0, slips)?,
+            reference_slip: at(5, "slip0").is(ReferenceSlip).optional(self.slip0, slips)?,
         };
         let cases = LoadCases { model, all };
         guard::reserve_estimate(cases.memory_of_ties())?;
         Ok(cases)
-    }
-
-    /// Number of the argument that an error is about; `otherwise` of an argument of the call that
-    /// is not here.
-    pub(super) fn position(&self, argument: Argument, otherwise: i32) -> i32 {
-        match argument {
-            // The model is the first argument of each call.
-            Matrix => 1,
-            _ => number_of(argument, self.first, &CASE).unwrap_or(otherwise),
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::args::{At, c_entry};
 use super::case_arguments::CaseArguments;
-use super::guard::{Failure, Outcome, refused};
+use super::guard::{Failure, Outcome};
 use super::model::SignoriniModel;
 use super::numbers::Numbered;
 use super::outputs::NO_RADIUS;
@@ -50,7 +50,7 @@ pub unsafe extern "C" fn signorini_model_certify(
         let d = arrays.at(MEASURED, "d").required(d, model.dim() * model.pairs())?;
         let report = arrays.at(12, "report").out_structures(report, 1)?;
         let state = arrays.at(11, "state").optional_output(state, model.pairs())?;
-        let at_force = arrays.at(10, "F");
+        let at_force = arrays.at(10, "F").is(Argument::Force);
         let (certificate, force) = if model.is_determined_by_displacements() {
             let force = at_force.optional_output(F, d.len())?;
             arrays.check_overlap()?;
@@ -60,11 +60,7 @@ pub unsafe extern "C" fn signorini_model_certify(
             arrays.check_overlap()?;
             (model.certify_forces(&case, d, force), None)
         };
-        let position = |argument| match argument {
-            Argument::Force => 10,
-            argument => given.position(argument, MEASURED),
-        };
-        let certificate = certificate.map_err(refused(position))?.with_rounding(tolerance);
+        let certificate = certificate.map_err(arrays.refused(MEASURED))?.with_rounding(tolerance);
         let status = judged(&certificate, tolerance);
         if let Some(force) = force {
             force.write(&certificate.force);
@@ -126,8 +122,7 @@ pub unsafe extern "C" fn signorini_model_prove(
         let radius_force = arrays.at(12, "radius_F").optional_output(radius_F, d.len())?;
         arrays.check_overlap()?;
         let states = state.map(|codes| at_state.states(codes)).transpose()?;
-        let position = |argument| given.position(argument, MEASURED);
-        let proof = model.prove(&case, d, states.as_deref()).map_err(refused(position))?;
+        let proof = model.prove(&case, d, states.as_deref()).map_err(arrays.refused(MEASURED))?;
         let proof = proof.as_ref();
         force.write_or(proof.map(|proof| &proof.force), 0.0);
         radius_d.write_or(proof.map(|proof| proof.radius_about(d)).as_ref(), NO_RADIUS);

@@ -4,12 +4,10 @@ use std::cell::Cell;
 
 use super::reserve::{self, CallReserve};
 use super::status::{
-    SIGNORINI_STATUS_CANCELLED, SIGNORINI_STATUS_FILE, SIGNORINI_STATUS_INTERNAL,
-    SIGNORINI_STATUS_MEMORY_LIMIT, SIGNORINI_STATUS_OUT_OF_MEMORY, SIGNORINI_STATUS_TIME_LIMIT,
-    caught, remember, remember_plain,
+    SIGNORINI_STATUS_INTERNAL, SIGNORINI_STATUS_OUT_OF_MEMORY, caught, remember, remember_plain,
 };
 use super::surroundings::Surroundings;
-use crate::error::{Argument, Error, Limit, Message};
+use crate::error::Message;
 use crate::linalg::products;
 use crate::shortage::Shortage;
 
@@ -44,27 +42,6 @@ impl Failure {
         );
         Failure { code: SIGNORINI_STATUS_OUT_OF_MEMORY, message: message.into() }
     }
-}
-
-/// Why a call ends at an error of the library, whose argument has the number that `position` tells.
-pub(super) fn refused(position: impl Fn(Argument) -> i32) -> impl Fn(Error) -> Failure {
-    move |error| {
-        let message = error.message();
-        let code = match error {
-            Error::Invalid { argument, .. } => -position(argument),
-            Error::OutOfMemory(_) => SIGNORINI_STATUS_OUT_OF_MEMORY,
-            Error::Stopped { limit: Limit::Memory, .. } => SIGNORINI_STATUS_MEMORY_LIMIT,
-            Error::Stopped { limit: Limit::Time, .. } => SIGNORINI_STATUS_TIME_LIMIT,
-            Error::Stopped { limit: Limit::Cancelled, .. } => SIGNORINI_STATUS_CANCELLED,
-            Error::File(_) => SIGNORINI_STATUS_FILE,
-        };
-        Failure { code, message }
-    }
-}
-
-/// The number of an argument in a call that has `listed` ones from number `first` on.
-pub(super) fn number_of(argument: Argument, first: i32, listed: &[Argument]) -> Option<i32> {
-    (first..).zip(listed).find(|(_, other)| **other == argument).map(|(number, _)| number)
 }
 
 /// Runs the body of an entry. Panics become `SIGNORINI_STATUS_INTERNAL`; the C library prints none of them.

@@ -1,9 +1,8 @@
 //! The beginning and the end of a handle.
 
 use super::args::At;
-use super::guard::{self, Outcome, refused};
+use super::guard::{self, Outcome};
 use super::status::keeping_sentence;
-use crate::error::{Argument, Error};
 use crate::shortage;
 
 /// The caller's place for a new handle; NULL until there is one.
@@ -22,13 +21,8 @@ impl At<'_> {
 }
 
 impl<T> OutPointer<T> {
-    /// Hands over a new object, or refuses the argument whose number `position` tells.
-    pub(super) fn fill<M: Into<T>>(
-        self,
-        object: Result<M, Error>,
-        position: impl Fn(Argument) -> i32,
-    ) -> Outcome<i32> {
-        let object = object.map_err(refused(position))?;
+    /// Hands over a new object.
+    pub(super) fn fill(self, object: impl Into<T>) -> Outcome<i32> {
         let handle = Box::new(object.into());
         // The reserve of a call holds nothing that outlives it.
         shortage::check();

@@ -3,6 +3,7 @@
 use super::args::At;
 use super::guard::Outcome;
 use super::numbers::{Numbered, numbers};
+use crate::error::Argument;
 use crate::problem::{FrictionLaw, Law};
 
 /// No friction: F_t = 0.
@@ -49,6 +50,7 @@ pub(super) fn read<'a>(
     (at_friction, friction): (At<'a>, *const f64),
     pairs: usize,
 ) -> Outcome<FrictionLaw<'a>> {
+    let (at_law, at_friction) = (at_law.is(Argument::LawChoice), at_friction.is(Argument::Law));
     let Some(law) = Law::numbered(law) else {
         let known = Law::ALL.map(|law| {
             let name = law.name().to_uppercase().replace('-', "_");

@@ -3,7 +3,7 @@
 use libc::c_char;
 
 use super::args::{Arrays, At, c_entry};
-use super::guard::{Outcome, refused};
+use super::guard::Outcome;
 use super::surface_fields::{pair_results, scatter};
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
@@ -91,12 +91,12 @@ pub unsafe extern "C" fn signorini_mesh_write(
             let displacement = values.map(|values| Field { name: "displacement", values });
             let of_zones = zones.iter().flat_map(Zones::fields);
             let mut written: Vec<Field<'_>> = displacement.chain(of_zones).collect();
-            let (n_fields, at) = (arrays.at(6, "n_fields").size(n_fields)?, arrays.at(7, "fields"));
+            let n_fields = arrays.at(6, "n_fields").size(n_fields)?;
+            let at = arrays.at(7, "fields").is(Argument::Fields);
             for field in at.all(fields, n_fields)? {
                 written.push(own_field(at, field, size_of_mesh)?);
             }
-            let position = |wrong| if wrong == Argument::Fields { 7 } else { 2 };
-            file::write_vtu(path, mesh, &written).map_err(refused(position))?;
+            file::write_vtu(path, mesh, &written).map_err(arrays.refused(2))?;
             Ok(0)
         })
     })
@@ -258,7 +258,7 @@ impl Zones {
         let at_state = arrays.at(ZONES, "state");
         let state = at_state.optional(zone.state, contact.arrays.count)?;
         state.map(|codes| at_state.states(codes)).transpose()?;
-        let found = contact.found.fields(&results).map_err(refused(|_| ZONES))?;
+        let found = contact.found.fields(&results).map_err(arrays.refused(ZONES))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (all, values) in self.reals.iter_mut().zip([pressure, clearance, traction, slip]) {
             scatter(nodes, values, |at, of_node| {

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use super::args::{Arrays, c_entry};
 use super::case_arguments::times;
-use super::guard::{self, Outcome, refused};
+use super::guard::{self, Outcome};
 use super::numbers::{Numbered, numbers};
 use super::structures::address;
 use crate::error::Argument;
@@ -39,7 +39,7 @@ impl Arrays {
     /// The first argument, a model.
     pub(super) fn model(&self, model: *const SignoriniModel) -> Outcome<&SignoriniModel> {
         guard::prepare_thread()?;
-        self.at(1, "model").handle(model)
+        self.at(1, "model").is(Argument::Matrix).handle(model)
     }
 }
 
@@ -137,8 +137,9 @@ pub unsafe extern "C" fn signorini_model_recover(
         let n = model.dim() * model.pairs();
         let lengths = (times(cases, host)?, times(cases, fixed)?, times(cases, n)?);
         let at = |position, name| arrays.at(position, name).matrix();
-        let load = at(3, "f").optional(f, lengths.0)?;
-        let values = at(4, "prescribed").optional(prescribed, lengths.1)?;
+        let load = at(3, "f").is(Argument::Load).optional(f, lengths.0)?;
+        let at_values = at(4, "prescribed").is(Argument::Prescribed);
+        let values = at_values.optional(prescribed, lengths.1)?;
         let d = at(5, "d").required(d, lengths.2)?;
         let out = at(6, "u").output(u, lengths.0)?;
         arrays.check_overlap()?;
@@ -149,19 +150,9 @@ pub unsafe extern "C" fn signorini_model_recover(
             d: &d[n * k..n * (k + 1)],
         };
         let write = |k: usize, u: Vec<f64>| out.part(host * k, host).write(&u);
-        model.recover_each(cases, case, write).map_err(refused(position))?;
+        model.recover_each(cases, case, write).map_err(arrays.refused(5))?;
         Ok(0)
     })
-}
-
-/// Number of the argument of [`signorini_model_recover`] that an error is about.
-fn position(argument: Argument) -> i32 {
-    match argument {
-        Argument::Matrix => 1,
-        Argument::Load => 3,
-        Argument::Prescribed => 4,
-        _ => 5,
-    }
 }
 
 /// Contact forces as your nodal forces. Sparse model: F by the signed weights. Two bodies: F on
@@ -182,7 +173,7 @@ pub unsafe extern "C" fn signorini_model_nodal_forces(
         let force = arrays.at(2, "F").required(F, n)?;
         let out = arrays.at(3, "nodal").output(nodal, model.host_size())?;
         arrays.check_overlap()?;
-        out.write(&model.nodal_forces(force).map_err(refused(|_| 2))?);
+        out.write(&model.nodal_forces(force).map_err(arrays.refused(2))?);
         Ok(0)
     })
 }
@@ -202,15 +193,11 @@ pub unsafe extern "C" fn signorini_model_condensed_load(
     c_entry!(|arrays| {
         let model = &arrays.model(model)?.model;
         let given = arrays.at(2, "f").required(f, model.host_size())?;
-        let values = arrays.at(3, "prescribed").optional(prescribed, model.fixed_count())?;
+        let at_values = arrays.at(3, "prescribed").is(Argument::Prescribed);
+        let values = at_values.optional(prescribed, model.fixed_count())?;
         let out = arrays.at(4, "load").output(load, model.dim() * model.pairs())?;
         arrays.check_overlap()?;
-        let position = |argument| match argument {
-            Argument::Matrix => 1,
-            Argument::Prescribed => 3,
-            _ => 2,
-        };
-        out.write(&model.condensed_load(given, values).map_err(refused(position))?);
+        out.write(&model.condensed_load(given, values).map_err(arrays.refused(2))?);
         Ok(0)
     })
 }

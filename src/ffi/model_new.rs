@@ -1,16 +1,13 @@
 //! Models: made of what a host has, reduced once.
 
 use super::args::c_entry;
-use super::guard::{self, number_of};
+use super::guard;
 use super::handle::release;
 use super::model::SignoriniModel;
 use super::pairs::SignoriniPairs;
 use super::settings::SignoriniSettings;
 use super::sparse::SignoriniSparse;
-use crate::error::Argument::{
-    self, Dimension, Fixed, LeadingDimension, Matrix, Order, SecondLeadingDimension, SecondMatrix,
-    Size,
-};
+use crate::error::Argument::{Fixed, Matrix, Order, SecondMatrix};
 use crate::model::Model;
 use crate::reduce;
 
@@ -34,15 +31,8 @@ pub unsafe extern "C" fn signorini_model_new_condensed(
         let received = SignoriniSettings::read(arrays.at(5, "settings"), settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = received.monitored(|monitor| Model::condensed_within(dim, pairs, k, monitor));
-        place.fill(made, of_matrices)
+        place.fill(made.map_err(arrays.refused(3))?)
     })
-}
-
-/// Number of an argument of the calls that take dense matrices.
-fn of_matrices(wrong: Argument) -> i32 {
-    const ARGUMENTS: [Argument; 6] =
-        [Dimension, Size, Matrix, LeadingDimension, SecondMatrix, SecondLeadingDimension];
-    number_of(wrong, 1, &ARGUMENTS).unwrap_or(3)
 }
 
 /// Makes a model of two bodies that you have condensed on matching contact nodes, each in its own
@@ -66,12 +56,12 @@ pub unsafe extern "C" fn signorini_model_new_two_body(
         let place = arrays.at(8, "model").out_pointer(model)?;
         let [dim, pairs, n] = arrays.sizes([1, 2], dim, pairs)?;
         let first = arrays.at(3, "K_A").square(K_A, ("lda", lda), n)?;
-        let second = arrays.at(5, "K_B").square(K_B, ("ldb", ldb), n)?;
+        let second = arrays.at(5, "K_B").is(SecondMatrix).square(K_B, ("ldb", ldb), n)?;
         let received = SignoriniSettings::read(arrays.at(7, "settings"), settings)?;
         guard::reserve_estimate(reduce::memory(n))?;
         let made = received
             .monitored(|monitor| Model::two_body_within(dim, pairs, [first, second], monitor));
-        place.fill(made, of_matrices)
+        place.fill(made.map_err(arrays.refused(3))?)
     })
 }
 
@@ -99,11 +89,12 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
 ) -> i32 {
     c_entry!(|arrays| {
         let place = arrays.at(6, "model").out_pointer(model)?;
-        let (given, matrix) = SignoriniSparse::read(arrays.at(1, "K"), K)?;
-        let order = given.order(arrays.at(1, "K"))?;
+        let at = arrays.at(1, "K").is(Matrix).is(Order);
+        let (given, matrix) = SignoriniSparse::read(at, K)?;
+        let order = given.order(at)?;
         let count = arrays.at(2, "n_fixed").size(n_fixed)?;
         let base = matrix.index_base;
-        let fixed = arrays.at(3, "fixed").indices(fixed, count, base)?;
+        let fixed = arrays.at(3, "fixed").is(Fixed).indices(fixed, count, base)?;
         let received = SignoriniSettings::read(arrays.at(5, "settings"), settings)?;
         let made = SignoriniPairs::with(arrays.at(4, "pairs"), pairs, base, |pairs| {
             guard::reserve_estimate(reduce::memory_of_vectors(pairs.dim * pairs.count))?;
@@ -111,11 +102,7 @@ pub unsafe extern "C" fn signorini_model_new_sparse(
                 Model::sparse_within(&matrix, &fixed, pairs, order.as_deref(), monitor)
             }))
         })?;
-        place.fill(made, |argument| match argument {
-            Matrix | Order => 1,
-            Fixed => 3,
-            _ => 4,
-        })
+        place.fill(made.map_err(arrays.refused(4))?)
     })
 }
 
@@ -149,7 +136,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility(
         let [dim, pairs, n] = arrays.sizes([1, 2], dim, pairs)?;
         let (w, ld) = arrays.at(3, "W").square(W, ("ldw", ldw), n)?;
         guard::reserve(n.saturating_mul(n).saturating_mul(size_of::<f64>()))?;
-        place.fill(Model::flexibility(dim, pairs, w, ld), of_matrices)
+        place.fill(Model::flexibility(dim, pairs, w, ld).map_err(arrays.refused(3))?)
     })
 }
 
@@ -173,7 +160,7 @@ pub unsafe extern "C" fn signorini_model_new_flexibility_sparse(
         let place = arrays.at(4, "model").out_pointer(model)?;
         let [dim, pairs, _] = arrays.sizes([1, 2], dim, pairs)?;
         let (_, w) = SignoriniSparse::read(arrays.at(3, "W"), W)?;
-        place.fill(Model::flexibility_sparse(dim, pairs, &w), |_| 3)
+        place.fill(Model::flexibility_sparse(dim, pairs, &w).map_err(arrays.refused(3))?)
     })
 }
 

@@ -4,9 +4,9 @@ use std::mem::take;
 use std::ops::Range;
 use std::sync::Mutex;
 
-use super::args::c_entry;
+use super::args::{Arrays, c_entry};
 use super::case_arguments::{CaseArguments, LoadCases, times};
-use super::guard::{Failure, refused};
+use super::guard::Failure;
 use super::model::SignoriniModel;
 use super::outputs::{OutputArguments, Outputs, SignoriniExtra};
 use super::report::SignoriniReport;
@@ -70,7 +70,9 @@ pub unsafe extern "C" fn signorini_model_solve(
         times(cases, n)?;
         let outputs = wanted.note(arrays, (START, 14), (n, pairs, cases))?;
         arrays.check_overlap()?;
-        let block = Block { model, given: &given, load_cases, outputs };
+        let start = START + i32::from(model.starts_from_forces());
+        arrays.at(start, "start").is(Argument::Start);
+        let block = Block { model, arrays, load_cases, outputs };
         let past = handle.replace_past(None);
         let (answer, past) = block.solve_all(cases, past, &received);
         // The reserve of a call holds nothing that outlives it.
@@ -84,7 +86,7 @@ pub unsafe extern "C" fn signorini_model_solve(
 /// A block of load cases and where their results go.
 struct Block<'a> {
     model: &'a Model,
-    given: &'a CaseArguments,
+    arrays: &'a Arrays,
     load_cases: LoadCases<'a>,
     outputs: Outputs,
 }
@@ -212,12 +214,7 @@ impl Block<'_> {
                 (status, is_told(&solution).then_some(solution.message))
             }
             Err(error) => {
-                let position = |argument| {
-                    let forces = i32::from(self.model.starts_from_forces());
-                    let own = if argument == Argument::Start { START + forces } else { SETTINGS };
-                    self.given.position(argument, own)
-                };
-                let Failure { code, message } = refused(position)(error);
+                let Failure { code, message } = self.arrays.refused(SETTINGS)(error);
                 (code, Some(message))
             }
         }

@@ -183,7 +183,7 @@ pub unsafe extern "C" fn signorini_model_new_operator(
     c_entry!(|arrays| {
         let place = arrays.at(2, "model").out_pointer(model)?;
         let given = arrays.at(1, "K").required_copy(K)?;
-        place.fill(of_functions(arrays, given)?, |_| 1)
+        place.fill(of_functions(arrays, given)?.map_err(arrays.refused(1))?)
     })
 }
 

@@ -4,13 +4,13 @@ use libc::c_char;
 use std::ffi::CString;
 
 use super::args::c_entry;
-use super::case_arguments::{CONDENSED, CaseArguments, CondensedArguments};
-use super::guard::{self, number_of, refused};
+use super::case_arguments::{CaseArguments, CondensedArguments};
+use super::guard;
 use super::handle::release;
 use super::model::SignoriniModel;
 use super::numbers::Numbered;
-use super::solve::LCP_ARGUMENTS;
 use super::structures::address;
+use crate::error::Argument;
 use crate::file::{self, Kind, ProblemFile};
 use crate::problem::{ContactProblem, Lcp};
 
@@ -73,7 +73,7 @@ pub unsafe extern "C" fn signorini_problem_read(
         let place = arrays.at(2, "problem").out_pointer(problem)?;
         let path = arrays.at(1, "path").path(path)?;
         guard::reserve_estimate(file::memory(path))?;
-        place.fill(file::read(path), |_| 1)
+        place.fill(file::read(path).map_err(arrays.refused(1))?)
     })
 }
 
@@ -166,7 +166,7 @@ pub unsafe extern "C" fn signorini_problem_write(
         let remark = arrays.at(REMARK, "remark").text(remark)?;
         ContactProblem::on_checked_matrix(data)
             .and_then(|problem| file::write(path, &problem, remark))
-            .map_err(refused(|wrong| number_of(wrong, 2, &CONDENSED).unwrap_or(REMARK)))?;
+            .map_err(arrays.refused(REMARK))?;
         Ok(0)
     })
 }
@@ -193,12 +193,12 @@ pub unsafe extern "C" fn signorini_lcp_write(
         let path = arrays.at(1, "path").path(path)?;
         let remark = arrays.at(REMARK, "remark").text(remark)?;
         let n = arrays.at(2, "n").size(n)?;
-        let (matrix, ld) = arrays.at(3, "M").square(M, ("ldm", ldm), n)?;
-        let q = arrays.at(5, "q").required(q, n)?;
-        let cover = arrays.at(6, "cover").optional(cover, n)?;
+        let (matrix, ld) = arrays.at(3, "M").is(Argument::Matrix).square(M, ("ldm", ldm), n)?;
+        let q = arrays.at(5, "q").is(Argument::Load).required(q, n)?;
+        let cover = arrays.at(6, "cover").is(Argument::Covering).optional(cover, n)?;
         Lcp::new(n, matrix, ld, q, cover)
             .and_then(|lcp| file::write_lcp(path, &lcp, remark))
-            .map_err(refused(|wrong| number_of(wrong, 2, &LCP_ARGUMENTS).unwrap_or(REMARK)))?;
+            .map_err(arrays.refused(REMARK))?;
         Ok(0)
     })
 }
@@ -230,8 +230,7 @@ pub unsafe extern "C" fn signorini_model_write(
         let path = arrays.at(2, "path").path(path)?;
         let case = given.read(arrays, model, 1, 0)?.case(0);
         let remark = arrays.at(REMARK, "remark").text(remark)?;
-        let position = |argument| given.position(argument, REMARK);
-        model.write_case(path, &case, remark).map_err(refused(position))?;
+        model.write_case(path, &case, remark).map_err(arrays.refused(REMARK))?;
         Ok(0)
     })
 }

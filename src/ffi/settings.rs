@@ -4,7 +4,7 @@ use libc::c_void;
 use std::ops::ControlFlow;
 
 use super::args::{At, c_entry};
-use super::guard::{Outcome, refused};
+use super::guard::Outcome;
 use super::numbers::{Numbered, numbers};
 use super::reserve;
 use super::structures::Structure;
@@ -181,7 +181,7 @@ impl SignoriniSettings {
             memory_limit,
             full_space: self.full_space != 0,
         };
-        settings.validate().map_err(refused(|_| at.position))?;
+        settings.validate().map_err(at.refused())?;
         Ok(ParsedSettings {
             settings,
             warm_start: match self.warm_start {

@@ -3,14 +3,14 @@
 use std::ptr::null_mut;
 
 use super::args::c_entry;
-use super::case_arguments::{CONDENSED, CondensedArguments};
-use super::guard::{self, number_of, refused};
+use super::case_arguments::CondensedArguments;
+use super::guard;
 use super::numbers::Numbered;
 use super::outputs::{OutputArguments, SignoriniExtra};
 use super::report::SignoriniReport;
 use super::settings::{SignoriniSettings, WarmStart};
 use super::status::{is_told, remember};
-use crate::error::Argument::{self, Covering, LeadingDimension, Load, Matrix, Size};
+use crate::error::Argument;
 use crate::problem::{ContactProblem, Lcp};
 use crate::solve::{Status, memory, memory_of_ties, solve, solve_lcp};
 
@@ -67,10 +67,7 @@ pub unsafe extern "C" fn signorini_solve(
         let outputs = wanted.note(arrays, (START, START + 3), sizes)?;
         arrays.check_overlap()?;
 
-        let position = |argument| {
-            let own = if argument == Argument::Start { START } else { SETTINGS };
-            number_of(argument, 1, &CONDENSED).unwrap_or(own)
-        };
+        arrays.at(START, "d").is(Argument::Start);
         let n = data.dim * data.pairs;
         guard::reserve_estimate(memory(n) + memory_of_ties(data.law, n))?;
         let is_given = received.warm_start == WarmStart::Given;
@@ -79,7 +76,7 @@ pub unsafe extern "C" fn signorini_solve(
             let problem = ContactProblem::new(data)?;
             solve(&problem, &received.settings, start.as_deref(), monitor)
         });
-        let solution = solved.map_err(refused(position))?;
+        let solution = solved.map_err(arrays.refused(SETTINGS))?;
         let status = outputs.write(0, &solution);
         if is_told(&solution) {
             remember(solution.message);
@@ -130,9 +127,9 @@ pub unsafe extern "C" fn signorini_lcp_solve(
 ) -> i32 {
     c_entry!(|arrays| {
         let n = arrays.at(1, "n").size(n)?;
-        let (matrix, ld) = arrays.at(2, "M").square(M, ("ldm", ldm), n)?;
-        let q = arrays.at(4, "q").required(q, n)?;
-        let cover = arrays.at(5, "cover").optional(cover, n)?;
+        let (matrix, ld) = arrays.at(2, "M").is(Argument::Matrix).square(M, ("ldm", ldm), n)?;
+        let q = arrays.at(4, "q").is(Argument::Load).required(q, n)?;
+        let cover = arrays.at(5, "cover").is(Argument::Covering).optional(cover, n)?;
         let received = SignoriniSettings::read(arrays.at(6, "settings"), settings)?;
         let w = arrays.at(7, "w").output(w, n)?;
         let z = arrays.at(8, "z").output(z, n)?;
@@ -141,11 +138,10 @@ pub unsafe extern "C" fn signorini_lcp_solve(
         arrays.check_overlap()?;
 
         guard::reserve_estimate(memory(n))?;
-        let position = |wrong| number_of(wrong, 1, &LCP_ARGUMENTS).unwrap_or(6);
-        let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(refused(position))?;
+        let lcp = Lcp::new(n, matrix, ld, q, cover).map_err(arrays.refused(6))?;
         let solution = received
             .monitored(|monitor| solve_lcp(&lcp, &received.settings, monitor))
-            .map_err(refused(position))?;
+            .map_err(arrays.refused(6))?;
 
         let status = solution.status.number();
         if solution.status != Status::Solved {
@@ -158,6 +154,3 @@ pub unsafe extern "C" fn signorini_lcp_solve(
         Ok(status)
     })
 }
-
-/// The arguments of the problem, in their order.
-pub(super) const LCP_ARGUMENTS: [Argument; 5] = [Size, Matrix, LeadingDimension, Load, Covering];

@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use libc::c_void;
 
 use super::args::At;
-use super::guard::{Outcome, refused};
+use super::guard::Outcome;
 use super::numbers::{Numbered, numbers};
 use super::structures::Structure;
 use crate::reduce::{Indices, SparseMatrix, Triangle};
@@ -102,7 +102,7 @@ impl SignoriniSparse {
         let row = given.indices(at, "row", given.row, nnz)?;
         let matrix = SparseMatrix { size, col_start, row, values, index_base, triangle };
         // Before other indices: a wrong index base is most likely that of all of them.
-        matrix.check_col_start().map_err(refused(|_| at.position))?;
+        matrix.check_col_start().map_err(at.refused())?;
         Ok((given, matrix))
     }
 }

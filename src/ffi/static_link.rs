@@ -11,23 +11,16 @@ struct Address(#[allow(dead_code)] *const ());
 // SAFETY: nobody follows it.
 unsafe impl Sync for Address {}
 
+macro_rules! addresses {
+    ($($function:ident)*) => { [$(Address(libc::$function as *const ())),*] };
+}
+
 #[used]
-static FUNCTIONS: [Address; 14] = [
-    Address(libc::pthread_mutex_init as *const ()),
-    Address(libc::pthread_mutex_lock as *const ()),
-    Address(libc::pthread_mutex_trylock as *const ()),
-    Address(libc::pthread_mutex_unlock as *const ()),
-    Address(libc::pthread_mutex_destroy as *const ()),
-    Address(libc::pthread_cond_init as *const ()),
-    Address(libc::pthread_cond_wait as *const ()),
-    Address(libc::pthread_cond_broadcast as *const ()),
-    Address(libc::pthread_cond_destroy as *const ()),
-    Address(libc::pthread_getspecific as *const ()),
-    Address(libc::pthread_setspecific as *const ()),
-    Address(libc::pthread_key_delete as *const ()),
-    Address(libc::pthread_join as *const ()),
-    Address(libc::pthread_self as *const ()),
-];
+static FUNCTIONS: [Address; 14] = addresses! {
+    pthread_mutex_init pthread_mutex_lock pthread_mutex_trylock pthread_mutex_unlock pthread_mutex_destroy
+    pthread_cond_init pthread_cond_wait pthread_cond_broadcast pthread_cond_destroy
+    pthread_getspecific pthread_setspecific pthread_key_delete pthread_join pthread_self
+};
 
 /// In the same object as what every entry calls, so that it is linked.
 pub(super) fn keep() {

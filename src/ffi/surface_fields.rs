@@ -4,7 +4,7 @@
 use std::ptr::null;
 
 use super::args::{Arrays, c_entry};
-use super::guard::{Outcome, refused};
+use super::guard::Outcome;
 use super::structures::Structure;
 use super::surface_new::SignoriniSurfacePairs;
 use crate::error::Argument;
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn signorini_surface_fields(
         ];
         let states = at.named("state").optional_output(given.state, nodes)?;
         arrays.check_overlap()?;
-        let found = contact.found.fields(&results).map_err(refused(position_in([2, 3, 4, 5])))?;
+        let found = contact.found.fields(&results).map_err(arrays.refused(5))?;
         let NodalFields { nodes, pairs, pressure, traction, clearance, slip } = &found;
         for (place, values) in places.iter().zip([pressure, traction, clearance, slip]) {
             scatter(nodes, values, |at, of_node| place.part(at, of_node.len()).write(of_node));
@@ -132,13 +132,10 @@ pub unsafe extern "C" fn signorini_surface_resultant(
         let results = pair_results(arrays, contact, [1, 2, 3, 4], [null(), slip0, d, F])?;
         let dim = contact.found.dim;
         let origin = [0.0; 3];
-        let point = arrays.at(5, "point").optional(point, dim)?.unwrap_or(&origin[..dim]);
+        let at_point = arrays.at(5, "point").is(Argument::Coordinates);
+        let point = at_point.optional(point, dim)?.unwrap_or(&origin[..dim]);
         let resultant = arrays.at(6, "resultant").out_structure(resultant)?;
-        let position = |wrong| match wrong {
-            Argument::Coordinates => 5,
-            wrong => position_in([1, 2, 3, 4])(wrong),
-        };
-        let sums = contact.found.resultant(&results, point).map_err(refused(position))?;
+        let sums = contact.found.resultant(&results, point).map_err(arrays.refused(4))?;
         let told = SignoriniResultant {
             struct_size: size_of::<SignoriniResultant>() as u32,
             reserved: 0,
@@ -161,22 +158,14 @@ pub(super) fn pair_results<'a>(
     [gap, slip0, d, force]: [*const f64; 4],
 ) -> Outcome<PairResults<'a>> {
     let (pairs, dim) = (contact.arrays.count, contact.found.dim);
+    let at = |k: usize, name, argument| arrays.at(positions[k], name).is(argument);
     Ok(PairResults {
-        gap: arrays.at(positions[0], "gap").optional(gap, pairs)?,
-        reference_slip: arrays.at(positions[1], "slip0").optional(slip0, (dim - 1) * pairs)?,
-        d: arrays.at(positions[2], "d").required(d, dim * pairs)?,
-        force: arrays.at(positions[3], "F").required(force, dim * pairs)?,
+        gap: at(0, "gap", Argument::Gap).optional(gap, pairs)?,
+        reference_slip: at(1, "slip0", Argument::ReferenceSlip)
+            .optional(slip0, (dim - 1) * pairs)?,
+        d: at(2, "d", Argument::Start).required(d, dim * pairs)?,
+        force: at(3, "F", Argument::Force).required(force, dim * pairs)?,
     })
-}
-
-/// The position of an argument of the pairs among those of gap, slip0, d and F.
-pub(super) fn position_in([gap, slip0, d, force]: [i32; 4]) -> impl Fn(Argument) -> i32 {
-    move |wrong| match wrong {
-        Argument::Gap => gap,
-        Argument::ReferenceSlip => slip0,
-        Argument::Start => d,
-        _ => force,
-    }
 }
 
 /// Hands over the values of each of some nodes, with their place among those of all nodes.
@@ -245,7 +234,7 @@ pub unsafe extern "C" fn signorini_surface_penetration(
         let (mut found, mut points, mut zone) = (Penetration::default(), 0, 0);
         for (at, kept) in contact.kept.iter().enumerate() {
             let passed = kept.surfaces.penetration(&kept.pairs, moved, monitor);
-            let passed = passed.map_err(refused(|_| 2))?;
+            let passed = passed.map_err(arrays.refused(2))?;
             points += passed.count;
             if passed.count > 0 && passed.depth >= found.depth {
                 (found, zone) = (passed, at as i64);

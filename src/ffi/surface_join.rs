@@ -7,10 +7,10 @@ use std::ptr::null;
 use libc::c_char;
 
 use super::args::{At, c_entry};
-use super::guard::{self, Failure, Outcome, refused};
+use super::guard::{self, Failure, Outcome};
 use super::law;
 use super::surface::SignoriniFaces;
-use super::surface_fields::{pair_results, position_in};
+use super::surface_fields::pair_results;
 use super::surface_new::{JoinedZones, SignoriniSurfacePairs};
 use crate::law::State;
 use crate::surface::{ContactZone, Joined, join_zones};
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn signorini_surface_join(
             joined.kept = kept;
             joined
         });
-        place.fill(joined, |_| ZONES)
+        place.fill(joined.map_err(arrays.refused(ZONES))?)
     })
 }
 
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn signorini_surface_table(
         for (name, pairs) in joined.zones() {
             let origin = &[0.0; 3][..joined.found.dim];
             let sums = joined.found.resultant_of(pairs.clone(), &results, origin);
-            let sums = sums.map_err(refused(position_in([1, 1, 2, 3])))?;
+            let sums = sums.map_err(arrays.refused(3))?;
             let [x, y, z] = sums.force;
             let numbers = [x, y, z, sums.pressed_area, sums.largest_pressure];
             add_row(&mut table, name, counts(&states[pairs]), numbers.map(scientific));

@@ -6,7 +6,7 @@ use std::ptr::null;
 use std::sync::Arc;
 
 use super::args::{Arrays, c_entry};
-use super::guard::{Outcome, refused};
+use super::guard::Outcome;
 use super::handle::release;
 use super::pairs::SignoriniPairs;
 use super::settings::ParsedSettings;
@@ -92,8 +92,10 @@ pub unsafe extern "C" fn signorini_surface_pair(
         let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
         let base = host.numbering.base;
-        let master = SignoriniFaces::read(arrays.at(5, "master"), master, base)?;
-        place.fill(host.pairs(Master::Faces(SignoriniFaces::view(&master))), position)
+        let at = arrays.at(5, "master").is(Argument::MasterFaces);
+        let master = SignoriniFaces::read(at, master, base)?;
+        let pairs = host.pairs(Master::Faces(SignoriniFaces::view(&master)));
+        place.fill(pairs.map_err(arrays.refused(SLAVE))?)
     })
 }
 
@@ -120,7 +122,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
     c_entry!(|arrays| {
         let place = arrays.at(7, "contact").out_pointer(contact)?;
         let host = Host::read(arrays, (dim, nodes, coordinates), slave, settings)?;
-        let at = arrays.at(5, "obstacle");
+        let at = arrays.at(5, "obstacle").is(Argument::MasterFaces).is(Argument::Obstacle);
         let given = at.whole(obstacle)?;
         let pairs = if given.kind == SIGNORINI_OBSTACLE_FACES {
             let base = host.numbering.base;
@@ -131,7 +133,7 @@ pub unsafe extern "C" fn signorini_surface_pair_obstacle(
             let shape = given.shape(at, host.dim)?;
             host.pairs(Master::RigidShape(shape))
         };
-        place.fill(pairs, position)
+        place.fill(pairs.map_err(arrays.refused(SLAVE))?)
     })
 }
 
@@ -164,23 +166,15 @@ pub unsafe extern "C" fn signorini_surface_adjust(
         let place = arrays.at(3, "coordinates").output(coordinates, length)?;
         let mut moved = place.read();
         let monitor = &mut Monitor::new(&Settings::default(), None);
-        let position = |argument| if argument == Argument::Settings { 2 } else { 3 };
-        contact.found.adjust(within, &mut moved, monitor).map_err(refused(position))?;
+        arrays.at(2, "within").is(Argument::Settings);
+        contact.found.adjust(within, &mut moved, monitor).map_err(arrays.refused(3))?;
         place.write(&moved);
         Ok(0)
     })
 }
 
-/// Number of an argument of both calls.
-fn position(argument: Argument) -> i32 {
-    match argument {
-        Argument::Dimension => 1,
-        Argument::Coordinates => 3,
-        Argument::MasterFaces | Argument::Obstacle => 5,
-        Argument::Settings => 6,
-        _ => 4,
-    }
-}
+/// Number of the slave's faces among the arguments of both calls.
+const SLAVE: i32 = 4;
 
 /// Arguments that both calls have.
 struct Host<'h> {
@@ -199,17 +193,18 @@ impl<'h> Host<'h> {
         slave: *const SignoriniFaces,
         settings: *const SignoriniSurfaceSettings,
     ) -> Outcome<Self> {
-        let dim = problem::checked_dim(dim).map_err(refused(|_| 1))?;
+        let dim = problem::checked_dim(dim).map_err(arrays.refused(1))?;
         let at_nodes = arrays.at(2, "nodes");
         let nodes = at_nodes.size(nodes)?;
         let Some(length) = nodes.checked_mul(dim) else {
             return at_nodes.refuse(format!("is {nodes}, too large"));
         };
-        let coordinates = arrays.at(3, "coordinates").required(coordinates, length)?;
-        let at_settings = arrays.at(6, "settings");
+        let at_coordinates = arrays.at(3, "coordinates").is(Argument::Coordinates);
+        let coordinates = at_coordinates.required(coordinates, length)?;
+        let at_settings = arrays.at(6, "settings").is(Argument::Settings);
         let (settings, limits, numbering) =
             SignoriniSurfaceSettings::read(at_settings, settings, (dim, nodes))?;
-        let slave = SignoriniFaces::read(arrays.at(4, "slave"), slave, numbering.base)?;
+        let slave = SignoriniFaces::read(arrays.at(SLAVE, "slave"), slave, numbering.base)?;
         Ok(Host { dim, coordinates, slave, settings, limits, numbering })
     }
 

@@ -30,16 +30,16 @@ impl<'a> Lines<'a> {
         self.number += 1;
         let read = (&mut self.reader).take(MOST_LINE).read_until(b'\n', &mut self.line);
         if let Err(error) = read {
-            return Err(self.refuse(&format!("cannot be read: {error}")));
+            return self.refuse(format!("cannot be read: {error}"));
         }
         match self.line.last() {
             None => Ok(false),
             Some(b'\n') => Ok(true),
             Some(_) if self.line.len() as u64 == MOST_LINE => {
-                Err(self.refuse(&format!("longer than {MOST_LINE} bytes")))
+                self.refuse(format!("longer than {MOST_LINE} bytes"))
             }
             // Half a number may look like a number.
-            Some(_) => Err(self.refuse("the file ends before the line does")),
+            Some(_) => self.refuse("the file ends before the line does"),
         }
     }
 
@@ -47,7 +47,7 @@ impl<'a> Lines<'a> {
     pub(super) fn require(&mut self, what: impl FnOnce() -> String) -> Result<(), Error> {
         match self.advance()? {
             true => Ok(()),
-            false => Err(self.refuse(&format!("the file ends, {} is missing", what()))),
+            false => self.refuse(format!("the file ends, {} is missing", what())),
         }
     }
 
@@ -56,14 +56,14 @@ impl<'a> Lines<'a> {
         String::from_utf8_lossy(self.line.trim_ascii())
     }
 
-    /// An error in this line.
-    pub(super) fn refuse(&self, what: &str) -> Error {
+    /// Refuses this line.
+    pub(super) fn refuse<T>(&self, what: impl AsRef<str>) -> Result<T, Error> {
         self.refuse_at(self.number, what)
     }
 
-    /// An error in another line.
-    pub(super) fn refuse_at(&self, number: u64, what: &str) -> Error {
-        refuse(self.path, Some(number), what)
+    /// Refuses another line.
+    pub(super) fn refuse_at<T>(&self, number: u64, what: impl AsRef<str>) -> Result<T, Error> {
+        Err(refuse(self.path, Some(number), what.as_ref()))
     }
 
     /// Reads `count` entries, those of `name` by columns of `size`. No more than `most` of them are
@@ -95,13 +95,13 @@ impl<'a> Lines<'a> {
     /// The number of this line, finite, or `+inf` where it may be.
     fn value(&self, infinite: bool, place: impl Fn() -> String) -> Result<f64, Error> {
         let text = self.text();
-        let wrong = |what: &str| self.refuse(&format!("{}: {} {what}", place(), shown(&text)));
+        let wrong = |what: &str| self.refuse(format!("{}: {} {what}", place(), shown(&text)));
         match text.parse::<f64>() {
-            Err(_) => Err(wrong("is not a number")),
+            Err(_) => wrong("is not a number"),
             Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) if text.contains(|c: char| c.is_ascii_digit()) => Err(wrong("is too large")),
+            Ok(_) if text.contains(|c: char| c.is_ascii_digit()) => wrong("is too large"),
             Ok(value) if infinite && value > 0.0 => Ok(value),
-            Ok(_) => Err(wrong("must be finite")),
+            Ok(_) => wrong("must be finite"),
         }
     }
 }

@@ -68,8 +68,9 @@ impl Comments {
                 let known = [OLD_VERSION, VERSION].into_iter().find(|known| *known == found);
                 let Some(known) = known else {
                     let found = shown(found);
-                    let known = format!("{OLD_VERSION} and {VERSION} are known");
-                    return Err(lines.refuse(&format!("version {found} of the format: {known}")));
+                    return lines.refuse(format!(
+                        "version {found} of the format: {OLD_VERSION} and {VERSION} are known"
+                    ));
                 };
                 comments.version = known;
             } else if let Some((key, value)) = comment.split_once(':')
@@ -77,33 +78,36 @@ impl Comments {
             {
                 let value = (lines.number, value.trim_ascii().to_owned());
                 if comments.found.insert(key, value).is_some() {
-                    return Err(lines.refuse(&format!("a second '{key}:'")));
+                    return lines.refuse(format!("a second '{key}:'"));
                 }
             }
         }
         if comments.version.is_empty() {
             let what = format!("some other matrix: no line '% {TITLE} {VERSION}' stands above");
-            return Err(lines.refuse(&what));
+            return lines.refuse(what);
         }
         Ok(comments)
     }
 
     /// Line and value of a key that must be there.
     fn get(&self, lines: &Lines<'_>, key: &str) -> Result<(u64, &str), Error> {
-        let missing = || lines.refuse(&format!("no line '% {key}:' stands above"));
-        self.found.get(key).map(|(at, value)| (*at, value.as_str())).ok_or_else(missing)
+        match self.found.get(key) {
+            Some((at, value)) => Ok((*at, value)),
+            None => lines.refuse(format!("no line '% {key}:' stands above")),
+        }
     }
 
     fn size(&self, lines: &Lines<'_>, key: &str) -> Result<usize, Error> {
         let (at, value) = self.get(lines, key)?;
-        let wrong = |_| lines.refuse_at(at, &format!("{key} is {}, not a size", shown(value)));
-        value.parse().map_err(wrong)
+        let wrong = |_| lines.refuse_at(at, format!("{key} is {}, not a size", shown(value)));
+        value.parse().or_else(wrong)
     }
 
     /// The kind and, of contact, the law: in version 1 of the format the kind is the law.
     fn kind(&self, lines: &Lines<'_>) -> Result<Kind, Error> {
-        let unknown = |what: &str, (at, name): (u64, &str)| {
-            lines.refuse_at(at, &format!("no {what} is {}", shown(name)))
+        let of_law = |law: Option<Law>, what: &str, (at, name): (u64, &str)| match law {
+            Some(law) => Ok(Kind::Contact(law)),
+            None => lines.refuse_at(at, format!("no {what} is {}", shown(name))),
         };
         let find = |name: &str| Law::ALL.into_iter().find(|law| law.name() == name);
         let kind = self.get(lines, "kind")?;
@@ -111,13 +115,13 @@ impl Comments {
             "lcp" => Ok(Kind::Lcp),
             name if self.version == OLD_VERSION => {
                 let law = find(name).filter(|law| OLD_LAWS.contains(law));
-                law.map(Kind::Contact).ok_or_else(|| unknown("kind of problem", kind))
+                of_law(law, "kind of problem", kind)
             }
             "contact" => {
                 let law = self.get(lines, "law")?;
-                find(law.1).map(Kind::Contact).ok_or_else(|| unknown("friction law", law))
+                of_law(find(law.1), "friction law", law)
             }
-            _ => Err(unknown("kind of problem", kind)),
+            _ => of_law(None, "kind of problem", kind),
         }
     }
 }
@@ -133,8 +137,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
         text.split_ascii_whitespace().map(str::to_ascii_lowercase).collect()
     };
     if words(&lines.text()) != words(BANNER) {
-        let what = format!("not a problem file, which begins with '{BANNER}'");
-        return Err(lines.refuse(&what));
+        return lines.refuse(format!("not a problem file, which begins with '{BANNER}'"));
     }
     let comments = Comments::read(lines)?;
     let kind = comments.kind(lines)?;
@@ -142,7 +145,7 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
         Kind::Lcp => (0, 0),
         Kind::Contact(_) => {
             let dim = comments.size(lines, "dim")?;
-            problem::checked_dim(dim).map_err(|error| lines.refuse(&format!("above, {error}")))?;
+            problem::checked_dim(dim).or_else(|error| lines.refuse(format!("above, {error}")))?;
             (dim, comments.size(lines, "pairs")?)
         }
     };
@@ -150,26 +153,25 @@ fn read_header(lines: &mut Lines<'_>) -> Result<(ProblemFile, bool), Error> {
     let more = columns.checked_sub(size);
     match kind {
         Kind::Lcp if !more.is_some_and(|more| LCP_COLUMNS.contains(&more)) => {
-            let what = format!("{size} rows ask for 1 or 2 columns more, not for {columns}");
-            return Err(lines.refuse(&what));
+            return lines
+                .refuse(format!("{size} rows ask for 1 or 2 columns more, not for {columns}"));
         }
         Kind::Contact(law) => {
             // Loads, gaps and reference slips, and the parameters of the law.
             let wanted = 3 + law.parameters().len();
             if dim.checked_mul(pairs) != Some(size) || more != Some(wanted) {
-                let what = format!(
+                return lines.refuse(format!(
                     "{size} rows and {columns} columns: with dim {dim}, {pairs} pairs and the law \
                      '{}' there must be dim * pairs rows and {wanted} columns more",
                     law.name()
-                );
-                return Err(lines.refuse(&what));
+                ));
             }
         }
         Kind::Lcp => {}
     }
     let has_covering = kind == Kind::Lcp && more == Some(*LCP_COLUMNS.end());
     if problem::unknowns(1, size).is_err() {
-        return Err(lines.refuse(&format!("{size} rows: the matrix cannot exist")));
+        return lines.refuse(format!("{size} rows: the matrix cannot exist"));
     }
     // It may be shown on a terminal, which control characters command.
     let remark = comments.found.get("remark").map(|(_, remark)| remark.as_str());
@@ -210,8 +212,8 @@ fn read_columns(
     }
     while lines.advance()? {
         if !lines.text().is_empty() {
-            let what = format!("the problem ends above, what is {}", shown(&lines.text()));
-            return Err(lines.refuse(&what));
+            let what = shown(&lines.text());
+            return lines.refuse(format!("the problem ends above, what is {what}"));
         }
     }
     Ok(())
@@ -229,7 +231,7 @@ fn rows(
     if let Some(i) = (0..size).find(|&i| !hold(i) && column[i] != 0.0) {
         let (row, value) = (index(i), column[i]);
         let what = format!("{name}, row {row}: {value:e} must be 0, such rows have no {name}");
-        return Err(lines.refuse_at(before + 1 + i as u64, &what));
+        return lines.refuse_at(before + 1 + i as u64, what);
     }
     Ok(column.into_iter().enumerate().filter(|(i, _)| hold(*i)).map(|(_, value)| value).collect())
 }
@@ -240,6 +242,6 @@ fn sizes(lines: &Lines<'_>) -> Result<(usize, usize), Error> {
     let numbers: Vec<_> = text.split_ascii_whitespace().map(str::parse).collect();
     match numbers[..] {
         [Ok(rows), Ok(columns)] => Ok((rows, columns)),
-        _ => Err(lines.refuse(&format!("not two sizes, rows and columns: {}", shown(&text)))),
+        _ => lines.refuse(format!("not two sizes, rows and columns: {}", shown(&text))),
     }
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::write::replace;
 use crate::error::{Argument, Error, entry, index};
+use crate::problem::checked_dim;
 
 /// Components of every vector and point of the file.
 const SPACE: usize = 3;
@@ -79,41 +80,39 @@ impl Mesh<'_> {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let refuse = |message: String| Err(Error::invalid(Argument::Mesh, message));
+        let refuse = |wrong: String| Argument::Mesh.refuse(format!("mesh: {wrong}"));
         let Mesh { dim, coordinates, types, start, nodes } = self;
-        if *dim != 2 && *dim != SPACE {
-            return refuse(format!("mesh: dim is {dim}, it must be 2 or 3"));
+        if let Err(error) = checked_dim(*dim) {
+            return refuse(error.to_string());
         }
         if !coordinates.len().is_multiple_of(*dim) {
             let given = coordinates.len();
-            return refuse(format!(
-                "mesh: there are {given} coordinates, no multiple of dim {dim}"
-            ));
+            return refuse(format!("there are {given} coordinates, no multiple of dim {dim}"));
         }
         if start.len() != types.len() + 1 || start.first() != Some(&0) {
-            return refuse("mesh: the cells need a start each, the first 0, and an end".into());
+            return refuse("the cells need a start each, the first 0, and an end".into());
         }
         if let Some(cell) = start.windows(2).position(|ends| ends[0] > ends[1]) {
             let (here, next) = (entry("cell_start", [cell]), entry("cell_start", [cell + 1]));
-            return refuse(format!("mesh: {next} is less than {here}"));
+            return refuse(format!("{next} is less than {here}"));
         }
         if start[types.len()] != nodes.len() {
             let (last, given) = (start[types.len()], nodes.len());
-            return refuse(format!("mesh: cell_start ends with {last}, cells have {given} nodes"));
+            return refuse(format!("cell_start ends with {last}, cells have {given} nodes"));
         }
         for (cell, ends) in start.windows(2).enumerate() {
             let (has, kind) = (ends[1] - ends[0], types[cell]);
             let cell_name = index(cell);
             if nodes_of_type(kind.into()).is_some_and(|nodes| nodes != has) {
                 return refuse(format!(
-                    "mesh: cell {cell_name} has {has} nodes, no number of VTK's type {kind}"
+                    "cell {cell_name} has {has} nodes, no number of VTK's type {kind}"
                 ));
             }
             let count = self.node_count();
             if let Some(node) = nodes[ends[0]..ends[1]].iter().find(|node| **node >= count) {
                 let node = index(node);
                 return refuse(format!(
-                    "mesh: cell {cell_name} has node {node}, the coordinates are those of {count} nodes"
+                    "cell {cell_name} has node {node}, the coordinates are those of {count} nodes"
                 ));
             }
         }
@@ -144,10 +143,9 @@ pub fn write_vtu(path: &Path, mesh: &Mesh<'_>, fields: &[Field<'_>]) -> Result<(
 }
 
 fn check_field(mesh: &Mesh<'_>, field: &Field<'_>) -> Result<(), Error> {
-    let refuse = |message: String| Err(Error::invalid(Argument::Fields, message));
     let name = field.name;
     if name.is_empty() || name.chars().any(char::is_control) {
-        return refuse("a field has a name that is empty or not printable".into());
+        return Argument::Fields.refuse("a field has a name that is empty or not printable");
     }
     let nodes = mesh.node_count();
     let (given, needed) = match field.values {
@@ -156,7 +154,8 @@ fn check_field(mesh: &Mesh<'_>, field: &Field<'_>) -> Result<(), Error> {
         Values::Integers(values) => (values.len(), nodes),
     };
     if given != needed {
-        return refuse(format!("field {name} has {given} entries, it needs {needed}"));
+        let wrong = format!("field {name} has {given} entries, it needs {needed}");
+        return Argument::Fields.refuse(wrong);
     }
     Ok(())
 }

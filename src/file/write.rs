@@ -85,15 +85,16 @@ fn listed(names: &[&str]) -> String {
 fn check_remark(remark: Option<&str>) -> Result<(), Error> {
     let remark = remark.unwrap_or_default();
     if remark.len() > MOST_REMARK {
-        let message = format!("remark has {} bytes, at most {MOST_REMARK} fit", remark.len());
-        return Err(Error::invalid(Argument::Remark, message));
+        let length = remark.len();
+        return Argument::Remark
+            .refuse(format!("remark has {length} bytes, at most {MOST_REMARK} fit"));
     }
     if remark.chars().any(char::is_control) {
-        let message = "remark has a control character, it must be one line of text";
-        return Err(Error::invalid(Argument::Remark, message));
+        return Argument::Remark
+            .refuse("remark has a control character, it must be one line of text");
     }
     if remark.trim() != remark {
-        return Err(Error::invalid(Argument::Remark, "remark begins or ends with a space"));
+        return Argument::Remark.refuse("remark begins or ends with a space");
     }
     Ok(())
 }

@@ -21,26 +21,23 @@ pub(super) fn check_fixed_gaps(
     let normals = fixed_components.iter().filter(|&component| component % dim == 0);
     let normals = normals.map(|component| component / dim);
     if let Some((pair, gap)) = first_open_tie((gaps, law), normals.clone()) {
-        let message = format!(
+        return Argument::Gap.refuse(format!(
             "{} is {gap}, and the pair is tied, but both sides are fixed along its normal: set the gap to 0, release \
              a side, or leave the pair out",
             entry("gap", [pair])
-        );
-        return Err(Error::invalid(Argument::Gap, message));
+        ));
     }
     if let Some((pair, tension)) = first_tension((gaps, law), normals.clone()) {
-        let message = format!(
+        return Argument::Law.refuse(format!(
             "pair {} has a tension of {tension}, but both sides are fixed along its normal: set a and b to 0, release a \
              side, or leave the pair out",
             index(pair)
-        );
-        return Err(Error::invalid(Argument::Law, message));
+        ));
     }
     let Some((pair, gap)) = first_penetration(gaps, normals) else { return Ok(()) };
-    let message = format!(
+    Argument::Gap.refuse(format!(
         "{} is {gap}, a penetration, but both sides of the pair are fixed along its normal: nothing can part \
          them: set the gap to 0, release a side, or leave the pair out",
         entry("gap", [pair])
-    );
-    Err(Error::invalid(Argument::Gap, message))
+    ))
 }

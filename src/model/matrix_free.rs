@@ -43,9 +43,9 @@ impl Model {
     ) -> Result<Self, Error> {
         let pairs = components.len() / checked_dim(dim)?;
         if dim * pairs != components.len() {
-            let message =
-                format!("place has {} entries, not {dim} for each pair", components.len());
-            return Err(Error::invalid(Argument::Matrix, message));
+            let given = components.len();
+            let wrong = format!("place has {given} entries, not {dim} for each pair");
+            return Argument::Matrix.refuse(wrong);
         }
         let reduction =
             Box::new(OperatorReduction::preconditioned(operator, dim, units, components)?);
@@ -83,9 +83,10 @@ impl Model {
         if !self.is_matrix_free() {
             return Ok(());
         }
-        let message = "the model forms no condensed matrix: it is in full space, or an operator; solve, certify and recover \
-                       load cases by the model";
-        Err(Error::invalid(Argument::Matrix, message))
+        Argument::Matrix.refuse(
+            "the model forms no condensed matrix: it is in full space, or an operator; solve, certify and recover \
+             load cases by the model",
+        )
     }
 
     /// Refuses what is asked of a stiffness, in flexibility form.
@@ -93,9 +94,9 @@ impl Model {
         if self.reduction.flexibility().is_none() {
             return Ok(());
         }
-        let message = "the model is in flexibility form: it has no stiffness; solve load cases by the model, and \
-                       certify d with F";
-        Err(Error::invalid(Argument::Matrix, message))
+        Argument::Matrix.refuse(
+            "the model is in flexibility form: it has no stiffness; solve load cases by the model, and certify d with F",
+        )
     }
 
     /// Refuses what needs a stiffness in relative displacements, if there is none.
@@ -106,11 +107,10 @@ impl Model {
             1 => String::new(),
             more => format!(" and of {} more", more - 1),
         };
-        let message = format!(
+        Argument::Matrix.refuse(format!(
             "the rows of pair {}{others} follow from those of other pairs or from supports: no stiffness in \
              relative displacements exists; solve load cases by the model",
             index(first)
-        );
-        Err(Error::invalid(Argument::Matrix, message))
+        ))
     }
 }

@@ -79,8 +79,7 @@ impl Model {
 fn not_overflown(argument: Argument, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
     let Some(i) = first_not_finite(&values) else { return Ok(values) };
     let place = entry(name, [i]);
-    let message = format!(
+    argument.refuse(format!(
         "{place} overflows: what it is made of is too large for a double; choose larger units"
-    );
-    Err(Error::invalid(argument, message))
+    ))
 }

@@ -23,8 +23,7 @@ pub(crate) fn dense<'a>(
     rows: usize,
     (matrix, leading): (Argument, Argument),
 ) -> Result<Matrix<'a>, Error> {
-    let entries =
-        required_length(name, rows, ld).map_err(|message| Error::invalid(leading, message))?;
+    let entries = required_length(name, rows, ld).or_else(|wrong| leading.refuse(wrong))?;
     check_length((name, matrix), values.len(), entries)?;
     Ok(Matrix::new(rows, values, ld))
 }
@@ -57,14 +56,13 @@ pub(crate) fn check_count(
     if given == needed {
         return Ok(());
     }
-    let message = format!("{name} has {given} entries, it must have {needed}");
-    Err(Error::invalid(argument, message))
+    argument.refuse(format!("{name} has {given} entries, it must have {needed}"))
 }
 
 /// Refuses the first entry that is not finite.
 pub(crate) fn check_finite((name, argument): Named<'_>, values: &[f64]) -> Result<(), Error> {
     match first_not_finite(values) {
-        Some(i) => Err(Error::invalid(argument, entry(name, [i]) + " is not finite")),
+        Some(i) => argument.refuse(entry(name, [i]) + " is not finite"),
         None => Ok(()),
     }
 }
@@ -76,7 +74,7 @@ pub(crate) fn check_finite_matrix(
 ) -> Result<(), Error> {
     for j in 0..matrix.size() {
         if let Some(i) = first_not_finite(matrix.column(j)) {
-            return Err(Error::invalid(argument, entry(name, [i, j]) + " is not finite"));
+            return argument.refuse(entry(name, [i, j]) + " is not finite");
         }
     }
     Ok(())
@@ -86,18 +84,16 @@ pub(crate) fn check_finite_matrix(
 pub(crate) fn checked_dim<T: Copy + Display + TryInto<usize>>(dim: T) -> Result<usize, Error> {
     match dim.try_into() {
         Ok(dim @ (2 | 3)) => Ok(dim),
-        _ => {
-            let message = format!("dim is {dim}, it must be 2 or 3");
-            Err(Error::invalid(Argument::Dimension, message))
-        }
+        _ => Argument::Dimension.refuse(format!("dim is {dim}, it must be 2 or 3")),
     }
 }
 
 /// Number of unknowns `dim * pairs`, if a matrix of that size can exist.
 pub(crate) fn unknowns(dim: usize, pairs: usize) -> Result<usize, Error> {
-    dim.checked_mul(pairs).filter(|&size| can_exist(size)).ok_or_else(|| {
-        Error::invalid(Argument::Size, format!("pairs is {pairs}: the matrix cannot exist"))
-    })
+    match dim.checked_mul(pairs) {
+        Some(size) if can_exist(size) => Ok(size),
+        _ => Argument::Size.refuse(format!("pairs is {pairs}: the matrix cannot exist")),
+    }
 }
 
 /// Refuses a gap that is neither a number nor `+inf`.
@@ -105,6 +101,5 @@ pub(crate) fn check_gaps(gap: &[f64]) -> Result<(), Error> {
     let wrong = gap.iter().position(|&gap| gap.is_nan() || gap == f64::NEG_INFINITY);
     let Some(i) = wrong else { return Ok(()) };
     let (place, gap) = (entry("gap", [i]), gap[i]);
-    let message = format!("{place} is {gap}, it must be a number or +inf (never touches)");
-    Err(Error::invalid(Argument::Gap, message))
+    Argument::Gap.refuse(format!("{place} is {gap}, it must be a number or +inf (never touches)"))
 }

@@ -71,14 +71,14 @@ impl<'a> ContactProblem<'a> {
     pub fn unsymmetric(data: ContactData<'a>) -> Result<Self, Error> {
         let mut problem = Self::on_checked_matrix(data)?;
         if problem.dim == 2 {
-            let message = "dim is 2: a matrix that is not symmetric is for dim 3";
-            return Err(Error::invalid(Argument::Dimension, message));
+            let wrong = "dim is 2: a matrix that is not symmetric is for dim 3";
+            return Argument::Dimension.refuse(wrong);
         }
         symmetric_matrix::check_diagonal(&problem.relation.matrix, ("K", Argument::Matrix))?;
         let matrix = problem.relation.matrix;
         if let Some(i) = (0..matrix.size()).find(|&i| matrix.at(i, i) == 0.0) {
-            let message = format!("{} is 0, it must be positive", entry("K", [i, i]));
-            return Err(Error::invalid(Argument::Matrix, message));
+            let place = entry("K", [i, i]);
+            return Argument::Matrix.refuse(format!("{place} is 0, it must be positive"));
         }
         problem.relation.symmetric = false;
         Ok(problem)
@@ -209,8 +209,8 @@ impl<'a, R: Relation> ContactProblem<'a, R> {
         checked_dim(dim)?;
         let pairs = relation.size() / dim;
         if dim * pairs != relation.size() {
-            let message = format!("{} components are no pairs of {dim}", relation.size());
-            return Err(Error::invalid(Argument::Size, message));
+            let components = relation.size();
+            return Argument::Size.refuse(format!("{components} components are no pairs of {dim}"));
         }
         check_length(("gap", Argument::Gap), gap.len(), pairs)?;
         let parameters = law.parameters() * pairs;

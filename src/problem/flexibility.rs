@@ -107,7 +107,7 @@ impl<'a> Flexibility<'a> {
         let root = matrix.diagonal_roots();
         symmetric_matrix::check_beside(&matrix, &root, ("W", Argument::Matrix))?;
         if size > 0 && matrix.largest_diagonal() == 0.0 {
-            return Err(Error::invalid(Argument::Matrix, ZERO));
+            return Argument::Matrix.refuse(ZERO);
         }
         Ok(matrix)
     }

@@ -145,7 +145,7 @@ impl<'a> FrictionLaw<'a> {
         const IN_PLANE: &str =
             "orthotropic, and dim is 2: a pair in the plane has one tangent, use Coulomb's law";
         if self.law().is_orthotropic() && dim == 2 {
-            return Err(Error::invalid(Argument::LawChoice, format!("the law is {IN_PLANE}")));
+            return Argument::LawChoice.refuse(format!("the law is {IN_PLANE}"));
         }
         let pairs = self.values().len().checked_div(self.parameters());
         for pair in 0..pairs.unwrap_or(0) {
@@ -153,9 +153,7 @@ impl<'a> FrictionLaw<'a> {
                 true => Err((0, format!(" is {IN_PLANE}"))),
                 false => self.check_pair(pair),
             };
-            checked.map_err(|(number, what)| {
-                Error::invalid(Argument::Law, self.place(pair, number) + &what)
-            })?;
+            checked.or_else(|(k, what)| Argument::Law.refuse(self.place(pair, k) + &what))?;
         }
         Ok(())
     }

@@ -39,9 +39,8 @@ impl<'a> Lcp<'a> {
         if let Some(covering) = covering
             && let Some(i) = covering.iter().position(|&d| !(d > 0.0 && d.is_finite()))
         {
-            let value = number(covering[i]);
-            let message = format!("{} is {value}, it must be positive", entry("cover", [i]));
-            return Err(Error::invalid(Argument::Covering, message));
+            let (place, value) = (entry("cover", [i]), number(covering[i]));
+            return Argument::Covering.refuse(format!("{place} is {value}, it must be positive"));
         }
         Ok(lcp)
     }

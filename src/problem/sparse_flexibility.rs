@@ -35,7 +35,7 @@ impl SparseW {
         let matrix = SparseW { islands: islands(&lower, dim), lower, dim };
         let (size, largest) = (matrix.size(), matrix.largest_diagonal());
         if size > 0 && largest == 0.0 {
-            return Err(Error::invalid(Argument::Matrix, ZERO));
+            return Argument::Matrix.refuse(ZERO);
         }
         Ok(matrix)
     }

@@ -16,16 +16,14 @@ use crate::linalg::ball::UNIT;
 use crate::linalg::vector::{norm, opposite, sizes};
 pub use crate::linalg::watched::GoesOn;
 
-/// A symmetric matrix along the two tangents of a pair; in the plane its first entry alone counts.
-pub type Tangential = [[f64; 2]; 2];
-
 /// Which components of `d` are held at zero, and springs along the tangents of pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldSet {
     /// One for each component of `d`.
     pub held: Vec<bool>,
-    /// One for each pair, positive semi-definite, force per length; those of held components do not count.
-    pub springs: Vec<Tangential>,
+    /// One for each pair, a symmetric, positive semi-definite matrix along its two tangents, of which the first entry alone
+    /// counts in the plane; force per length; those of held components do not count.
+    pub springs: Vec<[[f64; 2]; 2]>,
 }
 
 impl HeldSet {

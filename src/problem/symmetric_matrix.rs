@@ -101,7 +101,7 @@ fn check_across(
         } else {
             continue;
         };
-        return Err(Error::invalid(argument, message));
+        return argument.refuse(message);
     }
     Ok(())
 }
@@ -137,14 +137,13 @@ pub(crate) fn check_semidefinite(
         false => scale[i] * matrix.at(i, j) * scale[j],
     };
     let Some(component) = first_not_definite(matrix.size(), entry, go_on) else { return Ok(()) };
-    let message = format!(
+    argument.refuse(format!(
         "{name} is not positive semi-definite: a motion of the components up to {}, the last of pair {}, has \
          a negative energy: is {name} a stiffness, with the signs of its mixed entries in the frames of \
          the pairs?",
         index(component),
         index(component / dim)
-    );
-    Err(Error::invalid(argument, message))
+    ))
 }
 
 /// Refuses entries that are not finite, negative diagonals, zeros on the diagonal of columns that are not
@@ -172,19 +171,22 @@ fn check_columns(
     root: &[f64],
     (name, argument): Named<'_>,
 ) -> Result<(), Error> {
-    let refuse = |message: String| Err(Error::invalid(argument, message));
     let at = |i: usize, j: usize| entry(name, [i, j]);
     check_finite_matrix((name, argument), matrix)?;
     for j in 0..matrix.size() {
         let column = matrix.column(j);
         if root[j].is_nan() {
-            return refuse(format!("{} is {}, it must be positive", at(j, j), number(column[j])));
+            return argument.refuse(format!(
+                "{} is {}, it must be positive",
+                at(j, j),
+                number(column[j])
+            ));
         }
         let is_too_large = |i: &usize| column[*i].abs() > (1.0 + AGREES) * root[*i] * root[j];
         if column[j] == 0.0
             && let Some(i) = (0..column.len()).find(is_too_large)
         {
-            return refuse(format!(
+            return argument.refuse(format!(
                 "{} is 0, it must be positive: {} is {}",
                 at(j, j),
                 at(i, j),

@@ -124,7 +124,8 @@ impl ChangesUnits for Stiffness<'_> {
     type On<'b> = Stiffness<'b>;
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(Stiffness<'_>) -> T) -> Option<T> {
-        let (matrix, load) = (dense(&self.matrix, units.stiffness())?, units.force.all(self.load)?);
+        let matrix = all(self.matrix.to_vec(), units.stiffness())?;
+        let load = units.force.all(self.load)?;
         let matrix = Matrix::contiguous(self.size(), &matrix);
         let Stiffness { symmetric, rounding, .. } = *self;
         let scaled = Stiffness::new(matrix, &load, self.dim);
@@ -139,7 +140,7 @@ impl ChangesUnits for Flexibility<'_> {
         let entries;
         let form = match &self.form {
             FlexibilityForm::Dense(matrix) => {
-                entries = dense(matrix, -units.stiffness())?;
+                entries = all(matrix.to_vec(), -units.stiffness())?;
                 FlexibilityForm::Dense(Matrix::contiguous(matrix.size(), &entries))
             }
             FlexibilityForm::Sparse(matrix) => {
@@ -157,7 +158,7 @@ impl ChangesUnits for DependentRows<'_> {
     type On<'b> = DependentRows<'b>;
 
     fn in_units<T>(&self, units: Units, work: impl FnOnce(DependentRows<'_>) -> T) -> Option<T> {
-        let matrix = dense(&self.stiffness, units.stiffness())?;
+        let matrix = all(self.stiffness.to_vec(), units.stiffness())?;
         let (load, offset) = (units.force.all(self.load)?, units.length.all(self.offset())?);
         let of_rigid = exactly(self.of_rigid, units.stiffness())?;
         Some(work(DependentRows::new(self.dependence, (&matrix, &load), &offset, of_rigid)))
@@ -176,17 +177,8 @@ fn exactly(value: f64, power: i32) -> Option<f64> {
 }
 
 /// All numbers times a power of two; `None` where one is beyond doubles.
-fn all(values: &[f64], power: i32) -> Option<Vec<f64>> {
-    each(values.to_vec(), power)
-}
-
-/// The entries of a matrix times a power of two, column-major.
-fn dense(matrix: &Matrix<'_>, power: i32) -> Option<Vec<f64>> {
-    each(matrix.to_vec(), power)
-}
-
-/// The numbers times a power of two, in their place.
-fn each(mut values: Vec<f64>, power: i32) -> Option<Vec<f64>> {
+fn all(values: impl Into<Vec<f64>>, power: i32) -> Option<Vec<f64>> {
+    let mut values = values.into();
     for value in &mut values {
         *value = exactly(*value, power)?;
     }

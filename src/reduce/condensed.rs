@@ -23,11 +23,7 @@ impl CondensedReduction {
     ///
     /// # Errors
     /// As [`settled`].
-    pub(crate) fn new(
-        dim: usize,
-        matrix: &Matrix<'_>,
-        go_on: &mut dyn FnMut() -> bool,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(dim: usize, matrix: &Matrix<'_>, go_on: GoesOn<'_>) -> Result<Self, Error> {
         let settled = settled(dim, matrix, ("K", Argument::Matrix), go_on)?;
         let stiffness = settled.unwrap_or_else(|| matrix.to_vec());
         Ok(CondensedReduction { size: matrix.size(), stiffness })
@@ -49,7 +45,7 @@ pub(super) fn settled(
     dim: usize,
     matrix: &Matrix<'_>,
     named: Named<'_>,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: GoesOn<'_>,
 ) -> Result<Option<Vec<f64>>, Error> {
     let cleaned = without_rounding(dim, matrix, go_on);
     check(&view(matrix, &cleaned), dim, named)?;

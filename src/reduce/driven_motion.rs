@@ -11,7 +11,7 @@ pub(crate) fn driven_motion(
     load: &[f64],
     (d, unbalanced): (&[f64], &[f64]),
 ) -> [String; 2] {
-    let largest = norm_inf(&reduction.recover(None, None, d).unwrap_or_default());
+    let largest = norm_inf(&reduction.displacements_of_motion(d));
     let along = |force: &[f64]| force.iter().zip(d).map(|(f, d)| f * d).sum::<f64>() / largest;
     let left = match reduction.frames() {
         Some(frames) => format!(" In the axes of K the force is {}", force(frames, unbalanced, d)),

@@ -23,7 +23,7 @@ pub struct Equations<'a> {
 }
 
 pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
-    Err(Error::invalid(Argument::Pairs, message))
+    Argument::Pairs.refuse(message)
 }
 
 impl Equations<'_> {

@@ -26,6 +26,6 @@ pub use host_operator::{Held, HostOperator};
 pub use memory::{memory, memory_of_vectors};
 pub use operator::OperatorReduction;
 pub use pairs::ContactPairs;
-pub use reduction::{HostLoad, Reduction, SolvedCase};
+pub use reduction::{Condensed, HostLoad, Reduction, SolvedCase};
 pub use sparse::{Control, Indices, SparseMatrix, SparseReduction, Triangle};
 pub use two_body::TwoBodyReduction;

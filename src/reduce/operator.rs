@@ -5,7 +5,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::probes::{called, check_units, checked_images, measured_units, probe, refuse};
-use super::{Held, HostLoad, HostOperator, Reduction, SolvedCase};
+use super::{Condensed, Held, HostLoad, HostOperator, Reduction, SolvedCase};
 use crate::error::{Error, entry, index, number};
 use crate::linalg::last_case::LastCase;
 use crate::linalg::tolerances::AGREES;
@@ -223,11 +223,7 @@ impl Reduction for OperatorReduction {
         self.places.len()
     }
 
-    fn condense_cases(
-        &self,
-        cases: &[HostLoad<'_>],
-        goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
+    fn condense_cases(&self, cases: &[HostLoad<'_>], goes_on: GoesOn<'_>) -> Condensed {
         let mut condensed = Vec::new();
         let nothing = vec![0.0; self.dim * self.pairs];
         for (load, _) in cases {

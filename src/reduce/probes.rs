@@ -102,5 +102,5 @@ pub(super) fn called(
 }
 
 pub(super) fn refuse<T>(message: String) -> Result<T, Error> {
-    Err(Error::invalid(Argument::Matrix, message))
+    Argument::Matrix.refuse(message)
 }

@@ -7,6 +7,9 @@ use crate::problem::{Dependence, FlexibilityForm, GoesOn, StiffnessOperator};
 /// Nodal loads of the host, and values of the fixed degrees of freedom (`None`: zero).
 pub type HostLoad<'a> = (&'a [f64], Option<&'a [f64]>);
 
+/// The relative loads of each of several load cases.
+pub type Condensed = Result<Option<Vec<Vec<f64>>>, Error>;
+
 /// A load case of which the relative displacements are known.
 #[derive(Clone, Copy, Debug)]
 pub struct SolvedCase<'a> {
@@ -91,18 +94,10 @@ pub trait Reduction: Send + Sync {
         Ok(condensed.unwrap_or_default().concat())
     }
 
-    /// Displacements of the host from the loads (`None`: zero), the values of the fixed degrees of
-    /// freedom (`None`: zero) and the relative displacements `d`.
-    ///
-    /// # Errors
-    /// As [`Self::condense`].
-    fn recover(
-        &self,
-        load: Option<&[f64]>,
-        prescribed: Option<&[f64]>,
-        d: &[f64],
-    ) -> Result<Vec<f64>, Error> {
-        Ok(self.recover_cases(&[SolvedCase { load, prescribed, d }])?.concat())
+    /// Displacements of the host in a motion, from its relative ones; none where that fails.
+    fn displacements_of_motion(&self, d: &[f64]) -> Vec<f64> {
+        let motion = SolvedCase { load: None, prescribed: None, d };
+        self.recover_cases(&[motion]).unwrap_or_default().concat()
     }
 
     /// As [`Self::condense`], of the loads and fixed values of several load cases at once; `None` where `goes_on`, which
@@ -110,18 +105,14 @@ pub trait Reduction: Send + Sync {
     ///
     /// # Errors
     /// As [`Self::condense`].
-    fn condense_cases(
-        &self,
-        cases: &[HostLoad<'_>],
-        _goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
+    fn condense_cases(&self, cases: &[HostLoad<'_>], _goes_on: GoesOn<'_>) -> Condensed {
         Ok(Some(cases.iter().map(|(load, _)| load.to_vec()).collect()))
     }
 
-    /// As [`Self::recover`], of several load cases at once.
+    /// Displacements of the host in each of several load cases.
     ///
     /// # Errors
-    /// As [`Self::recover`].
+    /// As [`Self::condense`].
     fn recover_cases(&self, cases: &[SolvedCase<'_>]) -> Result<Vec<Vec<f64>>, Error> {
         Ok(cases.iter().map(|case| case.d.to_vec()).collect())
     }

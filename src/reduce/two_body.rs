@@ -14,7 +14,7 @@
 
 use super::condensed::{settled, view};
 use super::probes::refuse;
-use super::{HostLoad, Reduction, SolvedCase, motion};
+use super::{Condensed, HostLoad, Reduction, SolvedCase, motion};
 use crate::error::{Argument, Error, Message, index};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::pivoted_cholesky::PivotedCholesky;
@@ -146,11 +146,7 @@ impl Reduction for TwoBodyReduction {
         2 * self.size
     }
 
-    fn condense_cases(
-        &self,
-        cases: &[HostLoad<'_>],
-        goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
+    fn condense_cases(&self, cases: &[HostLoad<'_>], goes_on: GoesOn<'_>) -> Condensed {
         let condensed = |(load, _): &HostLoad<'_>| {
             if !goes_on() {
                 return None;

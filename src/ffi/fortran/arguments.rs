@@ -10,7 +10,6 @@ use super::super::law::{LAST_LAW, SIGNORINI_LAW_FRICTIONLESS};
 use super::super::place::Place;
 use super::super::settings::{SIGNORINI_METHOD_PATH, SignoriniSettings};
 use super::super::structures::Structure;
-use crate::problem::checked_dim;
 use crate::settings::check_tolerance;
 
 /// A Fortran INTEGER.
@@ -181,11 +180,9 @@ impl<I: Integer> Argument<*const I> {
     /// integers of 4 bytes were read as one of 8 bytes; a matrix with such a leading dimension would be
     /// read far outside.
     pub(super) fn count(self) -> Outcome<i64> {
-        let value = self.choice()?;
-        if value < 0 {
-            return self.refuse(format!("is {value}, it must not be negative"));
-        }
-        Ok(i64::from(value))
+        let value = i64::from(self.choice()?);
+        self.size(value)?;
+        Ok(value)
     }
 
     /// The result of `take` for an integer array of `length` entries.
@@ -202,9 +199,7 @@ impl<I: Integer> Argument<*const I> {
 
     /// NDIM.
     pub(super) fn dimension(self) -> Outcome<i32> {
-        let dim = self.choice()?;
-        checked_dim(dim).or_else(|_| self.refuse(format!("is {dim}, it must be 2 or 3")))?;
-        Ok(dim)
+        self.one_of(2..=3, "2 or 3")
     }
 
     /// LAW.
@@ -224,9 +219,7 @@ pub(super) fn settings<I: Integer>(
     let mut settings = SignoriniSettings::default_one();
     settings.method = method.one_of(0..=SIGNORINI_METHOD_PATH, "0 or SGNEST (1) to SGPATH (6)")?;
     let (tolerance, most) = (tol.read()?, maxit.wide()?);
-    if most < 0 {
-        return maxit.refuse(format!("is {most}, it must not be negative"));
-    }
+    maxit.size(most)?;
     if tolerance != 0.0 {
         let wrong = |message| {
             let rest = "or be 0 (the default); is it DOUBLE PRECISION, 1D-10 and not 1E-10?";

@@ -70,24 +70,24 @@ struct Board {
     ended: Condvar,
     /// The next part.
     next: AtomicUsize,
-    /// [`Notes::count`] and [`Notes::busy`], for those that look for changes of them.
+    /// Works so far. It changes under the lock of the notes, and so does the next one; who looks for changes needs no lock.
     count: AtomicU64,
+    /// Threads that have not ended this work.
     busy: AtomicUsize,
 }
 
+/// [`Board::count`] behind the last work, of which it is the number of none.
+const OVER: u64 = u64::MAX;
+
 #[derive(Default)]
 struct Notes {
+    /// `None` behind the end of each work, which the threads of this pool have all ended.
     work: Option<Posted>,
-    /// Works so far.
-    count: u64,
     /// Threads that wait for the next work or are at this one.
     present: usize,
-    /// Those that have not ended this work.
-    busy: usize,
     /// Threads that sleep until there is another work, and if the calling one does until this one has ended.
     asleep: usize,
     is_awaited: bool,
-    is_over: bool,
     /// Why a thread has ended its part otherwise than by doing it.
     failure: Option<Box<dyn Any + Send>>,
 }
@@ -100,14 +100,16 @@ impl Board {
             look_for(|| self.count.load(Ordering::Relaxed) != seen);
             let mut notes = locked(&self.notes);
             notes.asleep += 1;
-            let waits = |now: &mut Notes| now.count == seen && !now.is_over;
+            let waits = |now: &mut Notes| {
+                let count = self.count.load(Ordering::Relaxed);
+                // A thread that begins late has seen none of the works before, which have ended.
+                count != OVER && (count == seen || now.work.is_none())
+            };
             let mut notes =
                 self.posted.wait_while(notes, waits).unwrap_or_else(PoisonError::into_inner);
             notes.asleep -= 1;
-            let Some(Posted { work, parts }) = notes.work.filter(|_| notes.count != seen) else {
-                return;
-            };
-            seen = notes.count;
+            let Some(Posted { work, parts }) = notes.work else { return };
+            seen = self.count.load(Ordering::Relaxed);
             drop(notes);
             // SAFETY: the calling thread keeps the work until this one has said below that it is done.
             let work = unsafe { &*work };
@@ -120,14 +122,20 @@ impl Board {
                 self.next.store(parts, Ordering::Relaxed);
                 notes.failure = Some(reason);
             }
-            notes.busy -= 1;
-            self.busy.store(notes.busy, Ordering::Relaxed);
-            let wakes = notes.busy == 0 && notes.is_awaited;
+            let wakes = self.busy.fetch_sub(1, Ordering::Relaxed) == 1 && notes.is_awaited;
             drop(notes);
             if wakes {
                 self.ended.notify_one();
             }
         }
+    }
+
+    /// There is no work any more: who looks for the next one, or sleeps, finds it out.
+    fn end(&self) {
+        let notes = locked(&self.notes);
+        self.count.store(OVER, Ordering::Relaxed);
+        drop(notes);
+        self.posted.notify_all();
     }
 
     /// Does parts that nobody has begun.
@@ -185,10 +193,8 @@ impl Workers for WorkerPool {
         let mut notes = locked(&board.notes);
         board.next.store(0, Ordering::Relaxed);
         notes.work = Some(Posted { work: lasting, parts });
-        notes.count += 1;
-        notes.busy = notes.present;
-        board.busy.store(notes.busy, Ordering::Relaxed);
-        board.count.store(notes.count, Ordering::Relaxed);
+        board.busy.store(notes.present, Ordering::Relaxed);
+        board.count.fetch_add(1, Ordering::Relaxed);
         let wakes = notes.asleep > 0;
         drop(notes);
         if wakes {
@@ -200,7 +206,7 @@ impl Workers for WorkerPool {
         look_for(|| board.busy.load(Ordering::Relaxed) == 0);
         let mut notes = locked(&board.notes);
         notes.is_awaited = true;
-        let waits = |now: &mut Notes| now.busy > 0;
+        let waits = |_: &mut Notes| board.busy.load(Ordering::Relaxed) > 0;
         let mut notes =
             board.ended.wait_while(notes, waits).unwrap_or_else(PoisonError::into_inner);
         notes.is_awaited = false;
@@ -220,10 +226,7 @@ impl Workers for WorkerPool {
 
 impl Drop for WorkerPool {
     fn drop(&mut self) {
-        locked(&self.board.notes).is_over = true;
-        // No work has this number: who looks for the next one looks no further.
-        self.board.count.store(u64::MAX, Ordering::Relaxed);
-        self.board.posted.notify_all();
+        self.board.end();
         for thread in self.started.get_mut().drain(..) {
             thread.join();
         }
@@ -238,6 +241,20 @@ mod tests {
     use crate::ffi::guard;
     use crate::ffi::status::SIGNORINI_STATUS_INTERNAL;
     use crate::workers::{share, threads};
+
+    /// A thread that the system has refused for the first work, and grants for the second one, waits for that.
+    #[test]
+    fn a_thread_that_begins_late_waits_for_the_next_work() {
+        let board = Board::default();
+        board.count.store(1, Ordering::Relaxed);
+        std::thread::scope(|scope| {
+            let late = scope.spawn(|| board.serve(1));
+            std::thread::sleep(100 * LOOKING);
+            let is_gone = late.is_finished();
+            board.end();
+            assert!(!is_gone);
+        });
+    }
 
     /// A panic of the last thread, beside others that are at parts of their own, ends the call as one of the calling thread
     /// does: the works of the next call have all of their parts done.

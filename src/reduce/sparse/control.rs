@@ -55,10 +55,9 @@ impl<'a, 'b> Asked<'a, 'b> {
 /// # Errors
 /// Not a permutation: which entry.
 pub(super) fn ranks(size: usize, order: &[usize]) -> Result<Vec<usize>, Error> {
-    let refuse = |message: String| Err(Error::invalid(Argument::Order, message));
     if order.len() != size {
         let given = order.len();
-        return refuse(format!(
+        return Argument::Order.refuse(format!(
             "order has {given} entries, it must have one for each of {size} rows"
         ));
     }
@@ -66,11 +65,12 @@ pub(super) fn ranks(size: usize, order: &[usize]) -> Result<Vec<usize>, Error> {
     for (k, &dof) in order.iter().enumerate() {
         let (place, number) = (entry("order", [k]), index(dof));
         let Some(rank) = ranks.get_mut(dof) else {
-            return refuse(format!("{place} is {number}, there is no such degree of freedom"));
+            let wrong = format!("{place} is {number}, there is no such degree of freedom");
+            return Argument::Order.refuse(wrong);
         };
         if *rank != usize::MAX {
             let before = entry("order", [*rank]);
-            return refuse(format!(
+            return Argument::Order.refuse(format!(
                 "{place} is {number}, as {before} is: order must have each degree of freedom once"
             ));
         }

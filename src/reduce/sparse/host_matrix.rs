@@ -2,7 +2,7 @@
 
 use super::host_arrays::{SparseMatrix, Triangle};
 use super::messages;
-use crate::error::{Error, entry, number};
+use crate::error::{Error, entry, index, number};
 use crate::linalg::sparse_matrix::{
     Columns, Csc, OutOfMemory, both, column, diagonal, entries, transposed, value_at,
 };
@@ -92,7 +92,11 @@ impl SparseMatrix<'_> {
                 // Sums of a hundred such entries are doubles.
                 let largest = f64::MAX / 100.0;
                 if self.values[k].abs() > largest {
-                    return refuse(messages::too_large((name, i, j), self.values[k]));
+                    return refuse(format!(
+                        "{} is {}: sums of such entries overflow; choose units in which they are smaller",
+                        entry(name, [i, j]),
+                        number(self.values[k])
+                    ));
                 }
                 let in_place = match self.triangle {
                     Triangle::Lower => i >= j,
@@ -181,7 +185,12 @@ pub(super) fn check_diagonal(
         }
     }
     match (first..size).find(|&dof| without[dof] && !may_lack(dof)) {
-        Some(dof) => refuse(messages::no_stiffness(dof, is(dof))),
+        Some(dof) => refuse(format!(
+            "nothing resists degree of freedom {}: list it in fixed, or give it stiffness ({} is {})",
+            index(dof),
+            entry("K", [dof, dof]),
+            is(dof)
+        )),
         None => Ok(()),
     }
 }

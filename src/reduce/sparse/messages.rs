@@ -2,7 +2,7 @@
 //! what to do.
 
 use super::host_arrays::{Indices, SparseMatrix};
-use crate::error::{entry, index, number};
+use crate::error::{entry, index};
 use crate::linalg::sparse_schur::Failure;
 use crate::problem::NEARLY_DEPENDENT;
 use crate::reduce::motion;
@@ -63,15 +63,6 @@ fn width(indices: &Indices<'_>, k: usize) -> Option<&'static str> {
     }
 }
 
-/// Why an entry of a matrix is refused that is a double.
-pub(super) fn too_large((name, i, j): (&str, usize, usize), value: f64) -> String {
-    let place = entry(name, [i, j]);
-    format!(
-        "{place} is {}: sums of such entries overflow; choose units in which they are smaller",
-        number(value)
-    )
-}
-
 /// Entry `k` of `row`, in column `j`, is no row of the matrix.
 pub(super) fn row_out_of_range(matrix: &SparseMatrix<'_>, k: usize, j: usize) -> String {
     let (value, base) = (matrix.row.get(k), matrix.index_base);
@@ -96,15 +87,6 @@ pub(super) fn row_out_of_order(k: usize, j: usize, (last, i): (usize, usize)) ->
         "{said} stands after row {}, in {place}: row indices must be strictly ascending in each \
          column",
         index(last)
-    )
-}
-
-/// The row of a degree of freedom that is not fixed is zero; its diagonal entry `is` so.
-pub(super) fn no_stiffness(dof: usize, is: &str) -> String {
-    format!(
-        "nothing resists degree of freedom {}: list it in fixed, or give it stiffness ({} is {is})",
-        index(dof),
-        entry("K", [dof, dof])
     )
 }
 
@@ -147,13 +129,4 @@ pub(super) fn failure(
             )
         }
     }
-}
-
-/// A motion with the relative displacement, in the host's axes, of the pair that moves most.
-pub(super) fn with_pair(whole: &str, pair: usize, relative: &[f64]) -> String {
-    format!(
-        "{whole}; the slave of pair {} moves along {} relative to what it faces",
-        index(pair),
-        motion::components(relative)
-    )
 }

@@ -8,7 +8,7 @@ use super::host_arrays::SparseMatrix;
 use super::host_matrix::check_diagonal;
 use super::messages;
 use super::supports::{self, FixedComponent};
-use crate::error::{Argument, Error, Limit, Message};
+use crate::error::{Argument, Error, Limit, Message, index};
 use crate::linalg::sparse_matrix::{Csc, OutOfMemory, diagonals, times, transpose_times};
 use crate::linalg::sparse_schur::{Failure, Plan, SparseSchur};
 use crate::linalg::vector::{columns, combination, norm_inf};
@@ -16,7 +16,7 @@ use crate::linalg::watched::unended;
 use crate::problem::{Dependence, GoesOn, OfLeastEnergy, StiffnessOperator};
 use crate::reduce::equations::Dependents;
 use crate::reduce::memory::memory;
-use crate::reduce::{ContactPairs, HostLoad, Reduction, SolvedCase, motion};
+use crate::reduce::{Condensed, ContactPairs, HostLoad, Reduction, SolvedCase, motion};
 
 /// The reduction of a whole sparse matrix, kept for further load cases.
 pub struct SparseReduction {
@@ -105,16 +105,6 @@ impl SparseReduction {
             engine,
         })
     }
-
-    /// `Tᵀ (f - K P p)`.
-    fn transformed_load(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
-        let mut transformed = self.variables.load(load);
-        if let Some(values) = prescribed {
-            let forces = transpose_times(&self.of_fixed, values);
-            transformed.iter_mut().zip(forces).for_each(|(load, force)| *load -= force);
-        }
-        transformed
-    }
 }
 
 impl Reduction for SparseReduction {
@@ -140,8 +130,14 @@ impl Reduction for SparseReduction {
         self.engine.full_space().map(|space| Box::new(space.in_use()) as Box<_>)
     }
 
+    /// `Tᵀ (f - K P p)`.
     fn all_loads(&self, load: &[f64], prescribed: Option<&[f64]>) -> Vec<f64> {
-        self.transformed_load(load, prescribed)
+        let mut transformed = self.variables.load(load);
+        if let Some(values) = prescribed {
+            let forces = transpose_times(&self.of_fixed, values);
+            transformed.iter_mut().zip(forces).for_each(|(load, force)| *load -= force);
+        }
+        transformed
     }
 
     fn factor_bytes(&self) -> u64 {
@@ -156,13 +152,9 @@ impl Reduction for SparseReduction {
         self.fixed_count
     }
 
-    fn condense_cases(
-        &self,
-        cases: &[HostLoad<'_>],
-        goes_on: GoesOn<'_>,
-    ) -> Result<Option<Vec<Vec<f64>>>, Error> {
-        let transformed = cases.iter().map(|(load, values)| self.transformed_load(load, *values));
-        let loads: Vec<f64> = transformed.flatten().collect();
+    fn condense_cases(&self, cases: &[HostLoad<'_>], goes_on: GoesOn<'_>) -> Condensed {
+        let loads: Vec<f64> =
+            cases.iter().flat_map(|(load, values)| self.all_loads(load, *values)).collect();
         let condensed = match &self.engine {
             Engine::Condensed(schur) => schur.condense(&loads, goes_on),
             Engine::FullSpace(space) => space.condense(&loads, goes_on)?,
@@ -180,7 +172,7 @@ impl Reduction for SparseReduction {
             _ => None,
         };
         for case in cases {
-            let load = self.transformed_load(case.load.unwrap_or(&nothing), case.prescribed);
+            let load = self.all_loads(case.load.unwrap_or(&nothing), case.prescribed);
             match &of_rows {
                 Some((schur, of_rows)) => {
                     let condensed = || unended(|goes_on| schur.condense(&load, goes_on));
@@ -224,7 +216,7 @@ impl Reduction for SparseReduction {
     }
 
     fn motion_in_words(&self, dim: usize, d: &[f64]) -> Message {
-        let whole = motion::of_host(&self.recover(None, None, d).unwrap_or_default());
+        let whole = motion::of_host(&self.displacements_of_motion(d));
         let size = |pair: &usize| norm_inf(&d[dim * pair..dim * (pair + 1)]);
         let most = (0..d.len() / dim).max_by(|a, b| size(a).total_cmp(&size(b)));
         let Some(pair) = most.filter(|pair| size(pair) > 0.0) else {
@@ -233,7 +225,12 @@ impl Reduction for SparseReduction {
         let range = dim * pair..dim * (pair + 1);
         let directions = self.frames[dim * dim * pair..].chunks(dim);
         let relative = combination(dim, d[range].iter().copied().zip(directions));
-        messages::with_pair(&whole, pair, &relative).into()
+        format!(
+            "{whole}; the slave of pair {} moves along {} relative to what it faces",
+            index(pair),
+            motion::components(&relative)
+        )
+        .into()
     }
 }
 

@@ -14,7 +14,7 @@ pub(super) fn places_in_fixed(
     fixed: &[usize],
     dependents: &Dependents,
 ) -> Result<Vec<Option<usize>>, Error> {
-    let refuse = |message: String| Err(Error::invalid(Argument::Fixed, message));
+    let refuse = |message: String| Argument::Fixed.refuse(message);
     let mut places = vec![None; size];
     for (k, &dof) in fixed.iter().enumerate() {
         let Some(place) = places.get_mut(dof) else {
@@ -58,11 +58,10 @@ impl FixedComponent {
             return Ok(());
         }
         let pair = index(self.pair);
-        let message = format!(
+        Argument::Prescribed.refuse(format!(
             "prescribed values move both sides of pair {pair} apart by {}, along an axis along which \
              both are fixed: they must move alike",
             number(jump)
-        );
-        Err(Error::invalid(Argument::Prescribed, message))
+        ))
     }
 }
