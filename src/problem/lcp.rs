@@ -60,11 +60,6 @@ impl<'a> Lcp<'a> {
         self.q
     }
 
-    /// Entry `i` of the covering vector.
-    pub fn covering(&self, i: usize) -> f64 {
-        self.covering.map_or(1.0, |covering| covering[i])
-    }
-
     /// Largest entry of `M` in row or column `i`, which carries `z_i` to the unit of `w_i`; where both are zero that of all.
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitude = vec![0.0_f64; self.size()];

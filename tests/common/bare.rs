@@ -15,7 +15,12 @@ pub struct Bare {
 
 impl Bare {
     pub fn solve(&self, settings: &Settings) -> LcpSolution {
-        let lcp = Lcp::new(self.n, &self.m, self.n.max(1), &self.q, None).unwrap();
+        self.solve_covered(settings, None)
+    }
+
+    /// With a covering vector.
+    pub fn solve_covered(&self, settings: &Settings, cover: Option<&[f64]>) -> LcpSolution {
+        let lcp = Lcp::new(self.n, &self.m, self.n.max(1), &self.q, cover).unwrap();
         solve_lcp(&lcp, settings, &mut Monitor::new(settings, None)).unwrap()
     }
 

@@ -113,6 +113,33 @@ fn decides_positive_semidefinite_problems() {
     assert!(counts[1] > 400, "{counts:?}: too few are infeasible to test anything");
 }
 
+/// Semi-definite problems of small whole numbers are decided whatever the covering vector, whose entries here differ by up to 1e12 and
+/// take the digits of the path with it.
+#[test]
+fn decides_problems_with_any_covering_vector() {
+    for seed in 0..8000 {
+        let rng = &mut Rng::with_seed(seed);
+        let n = rng.usize(2..=5);
+        let mut whole = |most: i32| f64::from(rng.i32(-most..=most));
+        let rows: Vec<Vec<f64>> = (0..n / 2).map(|_| (0..n).map(|_| whole(3)).collect()).collect();
+        let mut m: Vec<f64> =
+            (0..n * n).map(|at| rows.iter().map(|row| row[at % n] * row[at / n]).sum()).collect();
+        for (i, j) in (0..n).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let skew = whole(3);
+            m[i + j * n] += skew;
+            m[j + i * n] -= skew;
+        }
+        let q = (0..n).map(|_| whole(4)).collect();
+        let data = Bare { n, m, q };
+        let cover: Vec<f64> = (0..n).map(|_| 10_f64.powf(uniform(rng, -6.0, 6.0))).collect();
+        let settings = Settings::default();
+        let solution = data.solve_covered(&settings, Some(&cover));
+        let context = || format!("seed {seed}\n{data:?}\n{cover:?}\n{solution:?}");
+        assert!(decided(solution.status), "{}", context());
+        assert_eq!(data.flaw(&solution, settings.tolerance), None, "{}", context());
+    }
+}
+
 /// Copies of one unknown leave definite matrices semi-definite, but every `q` feasible.
 #[test]
 fn solves_positive_definite_problems() {

@@ -111,30 +111,35 @@ fn by_pivoting(task: Task<'_>) -> (LcpSolution, Ending) {
     (certified(task, Method::BlockPivoting, found, (&ending, effort)), ending)
 }
 
-/// Lemke's method; a path whose end has lost accuracy is followed once more.
+/// Lemke's method; a path whose end has lost accuracy is followed once more, and by default, where the host gives a covering
+/// vector, at last with ones: entries that differ by a thousand and more take its digits.
 fn by_lemke(task: Task<'_>) -> Result<LcpSolution, Error> {
     let Task { lcp, magnitudes, settings, monitor } = task;
     // Powers of two: the pivots are those of the unscaled problem, rounding included.
     let scale = scales(magnitudes);
-    let covering: Vec<f64> = (0..lcp.size()).map(|i| lcp.covering(i)).collect();
     let matrix = lcp.matrix;
     let fill = |j: usize, column: &mut [f64]| column.copy_from_slice(matrix.column(j));
-    let scaled = Scaled::new(fill, lcp.q(), &covering, scale);
     let label = lemke::missing_label(&matrix, lcp.q());
-    let rules = |thorough| LemkeRules { label, ..LemkeRules::usual(thorough) };
-    let end_of_path = |thorough| {
-        let mut run = lemke::follow(&scaled, rules(thorough), monitor)?;
+    let end_of_path = |thorough, covering: &[f64]| {
+        let scaled = Scaled::new(fill, lcp.q(), covering, scale.clone());
+        let rules = LemkeRules { label, ..LemkeRules::usual(thorough) };
+        let mut run = lemke::follow(&scaled, rules, monitor)?;
         let found = at_end(task, std::mem::take(&mut run.z), &run.ending);
         Ok::<_, Error>((run, found))
     };
-    let (mut run, mut found) = end_of_path(false)?;
-    let lost_accuracy = match run.ending {
-        Ending::Done => !found.holds(settings.tolerance),
-        Ending::Recession(_) | Ending::Stopped(_) => false,
-        _ => true,
-    };
-    if lost_accuracy {
-        (run, found) = end_of_path(true)?;
+    let ones = vec![1.0; lcp.size()];
+    let given = lcp.covering.unwrap_or(&ones);
+    let (mut run, mut found) = end_of_path(false, given)?;
+    let is_default = settings.method == Method::Auto && lcp.covering.is_some();
+    for covering in std::iter::once(given).chain(is_default.then_some(&ones[..])) {
+        let lost_accuracy = match run.ending {
+            Ending::Done => !found.holds(settings.tolerance),
+            Ending::Recession(_) | Ending::Stopped(_) => false,
+            _ => true,
+        };
+        if lost_accuracy {
+            (run, found) = end_of_path(true, covering)?;
+        }
     }
     let effort = Effort { refactorisations: run.refactorisations, ..Effort::default() };
     Ok(certified(task, Method::Lemke, found, (&run.ending, effort)))
