@@ -35,6 +35,13 @@ impl Face<'_> {
         self.x.iter().zip(values).map(|(x, value)| x * *value).sum()
     }
 
+    /// Points in whose convex hull its edges are: corners, and between them where the tangents at both meet.
+    pub(super) fn control_points(&self) -> impl Iterator<Item = Vector3> {
+        let between =
+            |(mid, [a, b]): (usize, [usize; 2])| 2.0 * self.x[mid] - 0.5 * (self.x[a] + self.x[b]);
+        self.x[..self.kind.corners()].iter().copied().chain(self.kind.mids().map(between))
+    }
+
     /// Derivatives of the position by the local coordinates; across a line that along the third axis.
     pub(super) fn derivatives(&self, at: Local) -> [Vector3; 2] {
         let across = if self.kind.is_line() { axis(2) } else { Vector3::zeros() };

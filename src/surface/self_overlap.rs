@@ -4,11 +4,13 @@
 //! itself; faces that meet in an edge or a node; layers further apart than the search reaches.
 
 use super::candidates::SAME_WAY;
+use super::face::Face;
 use super::mesh::Side;
 use super::overlap::{Overlaps, SlaveFace};
 use super::sweep::Sweep;
 use super::tree::Tree;
 use crate::error::Error;
+use crate::linalg::vector3::Vector3;
 
 /// Faces lie upon each other up to this distance, relative to the smaller one: two meshes of a curved
 /// surface differ by `h² / 8 R`, which is 0.05 of `h` where a face turns by 23 degrees. More than this share of it is common: parts
@@ -32,7 +34,10 @@ pub(super) fn check(side: &Side<'_>, faces: &mut Tree<'_>, reach: f64) -> Result
         // Of faces that look the same way and share an edge each lies on its own side of it.
         let shares = |[a, b]: [usize; 2], other| side.edges(other).any(|edge| edge == [b, a]);
         let is_beside = |other: usize| side.edges(at).any(|edge| shares(edge, other));
-        near.retain(|&other| side.dim == 2 || !is_beside(other));
+        let is_apart = |other| {
+            is_beside(other) || meet_in_a_corner([&face, &side.face(other)], faces.normals[at])
+        };
+        near.retain(|&other| side.dim == 2 || !is_apart(other));
         if near.is_empty() {
             continue;
         }
@@ -52,6 +57,25 @@ pub(super) fn check(side: &Side<'_>, faces: &mut Tree<'_>, reach: f64) -> Result
         }
     }
     Ok(())
+}
+
+/// True if two faces have a common corner, and a line along an edge of the first there has each on its own side, seen along a
+/// normal, but for an eighth of [`UPON`] of how far the narrower one reaches from the line: a quarter of that share is beyond it.
+fn meet_in_a_corner([first, second]: [&Face<'_>; 2], normal: Vector3) -> bool {
+    let corners = first.kind.corners();
+    let of_second = &second.nodes[..second.kind.corners()];
+    (0..corners).filter(|i| of_second.contains(&first.nodes[*i])).any(|i| {
+        let [after, before] = [i + 1, i + corners - 1].map(|beside| first.x[beside % corners]);
+        let corner = first.x[i];
+        [normal.cross(&(after - corner)), (before - corner).cross(&normal)].iter().any(|inward| {
+            let [own, other] = [first, second].map(|face| {
+                let heights = face.control_points().map(|x| inward.dot(&(x - corner)));
+                heights.fold([0.0, 0.0], |[low, high], x| [f64::min(low, x), f64::max(high, x)])
+            });
+            let least = UPON / 8.0 * f64::min(own[1], -other[0]);
+            own[0] >= -least && other[1] <= least
+        })
+    })
 }
 
 fn upon(side: &Side<'_>, (at, other): (usize, usize), share: f64) -> Error {

@@ -453,7 +453,7 @@ fn a_motion_of_escape_is_told_in_words() {
         "the slave of pair",
         "(0.000, 1.000) relative to what it faces",
         "the resultant of the loads along it is 3.000e0",
-        "are a support, friction, or a pair missing, or is a normal, a load or the sign of gap turned round?",
+        "are a support, friction, or a pair missing, is a gap infinite, or is a normal, a load or the sign of gap turned round?",
     ] {
         assert!(solution.message.contains(part), "'{part}': {}", solution.message);
     }

@@ -190,6 +190,59 @@ fn a_fan_that_goes_round_twice_is_refused() {
     assert!(message.starts_with("slave face 5 lies upon face 0, with 100 %"), "{message}");
 }
 
+/// Two triangles with one corner in common, and mid nodes or none, are refused where they share more than a twentieth of the smaller
+/// one, whatever their angles, sizes and the corner at which their lists begin. The share is the integral of half the square
+/// of the lesser radius over the common angles, in a thousand steps.
+#[test]
+fn triangles_with_one_corner_in_common_are_refused_by_what_they_share() {
+    let rng = &mut Rng::with_seed(9);
+    let mut counts = [0; 2];
+    for _ in 0..400 {
+        let mut triangle = || {
+            let (from, angle) = (2.0 * PI * rng.f64(), 0.2 + 2.2 * rng.f64());
+            let lengths = [0.3 + rng.f64(), 0.3 + rng.f64()];
+            (from, angle, lengths)
+        };
+        let both = [triangle(), triangle()];
+        let end = |at: f64, length: f64| [length * at.cos(), length * at.sin(), 0.0];
+        let ends = both.map(|(from, angle, [a, b])| [end(from, a), end(from + angle, b)]);
+        // The radius up to the line between both ends; zero beside them.
+        let radius = |k: usize, at: f64| {
+            let (from, angle, [a, b]) = both[k];
+            let turn = (at - from).rem_euclid(2.0 * PI);
+            let across = a * turn.sin() + b * (angle - turn).sin();
+            if turn < angle { a * b * angle.sin() / across } else { 0.0 }
+        };
+        let step = 2.0 * PI / 1000.0;
+        let places = || (0..1000).map(|i| (f64::from(i) + 0.5) * step);
+        let areas = both.map(|(_, angle, [a, b])| 0.5 * a * b * angle.sin());
+        let common = places().map(|at| radius(0, at).min(radius(1, at)).powi(2));
+        let share = 0.5 * step * common.sum::<f64>() / areas[0].min(areas[1]);
+        if (share - 0.05).abs() < 0.02 {
+            continue;
+        }
+        let corners = [[0.0; 3], ends[0][0], ends[0][1], ends[1][0], ends[1][1]];
+        let mid = |a: usize, b: usize| [0, 1, 2].map(|c| 0.5 * (corners[a][c] + corners[b][c]));
+        let mids = [mid(0, 1), mid(1, 2), mid(2, 0), mid(0, 3), mid(3, 4), mid(4, 0)];
+        let nodes = [&corners[..], &mids].concat();
+        let faces = [vec![0, 1, 2, 5, 6, 7], vec![0, 3, 4, 8, 9, 10]];
+        for (has_mids, begin) in [(false, 0), (false, 1), (true, 0), (true, 2)] {
+            let face = |face: &Vec<usize>| {
+                let mut list = face.clone();
+                list[..3].rotate_left(begin);
+                list[3..].rotate_left(begin);
+                list.truncate(if has_mids { 6 } else { 3 });
+                list
+            };
+            let sheet = Sheet { nodes: nodes.clone(), faces: faces.iter().map(face).collect() };
+            let is_refused = refused(3, &sheet, None).is_some();
+            assert_eq!(is_refused, share > 0.05, "{has_mids}, {begin}, {share}: {both:?}");
+            counts[usize::from(is_refused)] += 1;
+        }
+    }
+    assert!(counts[0] > 100 && counts[1] > 100, "{counts:?}");
+}
+
 /// Masters: by dual mortar they are refused, as the slave's force would go to both; nodes take the nearest. An
 /// obstacle's faces are named as such, and slaves are compared against any obstacle.
 #[test]

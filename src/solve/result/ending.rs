@@ -33,8 +33,8 @@ pub const NO_EQUILIBRIUM: &str =
     "no equilibrium exists: the loads drive a rigid motion that contact does not stop";
 
 /// Causes that a host looks at then.
-pub const CAUSES: &str = "are a support, friction, or a pair missing, or is a normal, a load or the sign of gap \
-                          turned round?";
+pub const CAUSES: &str = "are a support, friction, or a pair missing, is a gap infinite, or is a normal, a load or the \
+                          sign of gap turned round?";
 
 impl From<Stop> for Ending {
     fn from(stop: Stop) -> Self {
