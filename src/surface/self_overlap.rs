@@ -60,7 +60,8 @@ pub(super) fn check(side: &Side<'_>, faces: &mut Tree<'_>, reach: f64) -> Result
 }
 
 /// True if two faces have a common corner, and a line along an edge of the first there has each on its own side, seen along a
-/// normal, but for an eighth of [`UPON`] of how far the narrower one reaches from the line: a quarter of that share is beyond it.
+/// normal, but for an eighth of [`UPON`] of how far the narrower one reaches from the line. Either has at most twice that share of it
+/// beyond the line, so that half of `UPON` is common at most.
 fn meet_in_a_corner([first, second]: [&Face<'_>; 2], normal: Vector3) -> bool {
     let corners = first.kind.corners();
     let of_second = &second.nodes[..second.kind.corners()];
